@@ -1,0 +1,12 @@
+#pragma once
+
+namespace krepl {
+
+/// A place or a vector in the plane, in the input's own unit (metres, millimetres, ...).
+struct Point {
+  double x = 0;
+  double y = 0;
+  friend bool operator==(const Point&, const Point&) = default;
+};
+
+}  // namespace krepl

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "krepl/context.hpp"
+#include "krepl/error.hpp"
+#include "krepl/network.hpp"
+#include "krepl/point.hpp"
+#include "krepl/subdivision.hpp"
+
+namespace krepl {
+
+/// How often each rung of the ladder of predicates decided, and what the search cost. Printed by `krepl --verbose`.
+struct ZoneCounters {
+  std::uint64_t elements = 0;          ///< offset sides and vertex arcs examined
+  std::uint64_t covered_at_once = 0;   ///< of them, covered by a recently successful segment
+  std::uint64_t candidates = 0;        ///< cigars intersected with elements in double precision
+  std::uint64_t elements_in_double = 0;     ///< decided in double precision within its error bound
+  std::uint64_t elements_in_quadruple = 0;  ///< decided in quadruple precision
+  std::uint64_t ties_by_perturbation = 0;   ///< of those, decided only by the symbolic-size perturbation of vertices
+  std::uint64_t collapsed_pieces = 0;  ///< pieces dropped because no double lies between their ends
+  std::uint64_t dropped_rings = 0;     ///< rings dropped because they are thinner than the coordinate resolution
+};
+
+/// The zone (buffer) of a network: its Minkowski sum with a disk, bounded by true segments and circular arcs.
+///
+/// The boundary is a set of rings; ring r consists of the pieces ring_begin(r) .. ring_begin(r+1), in order, with the zone
+/// on the left: outer rings run counter-clockwise, holes clockwise. Piece e is edge e of subdivision(): half-edge 2e runs
+/// with the piece (zone on its left), 2e+1 against it. The piece starts at vertex e.
+class Zone {
+ public:
+  enum class Kind : std::uint8_t { segment, arc };
+
+  /// One true piece of the boundary, in absolute coordinates. An arc runs counter-clockwise from start to end about
+  /// center with the zone's radius (start == end: the full circle).
+  struct Piece {
+    Kind kind;
+    Point start, end;
+    Point center;          ///< arcs only
+    std::uint32_t source;  ///< the segment (kind segment) or vertex (kind arc) of network() that causes it
+    bool reversed;         ///< segments only: the piece runs from the source segment's b to its a
+  };
+
+  /// A connected part of the zone: one outer ring and its holes.
+  struct Polygon {
+    std::uint32_t outer;
+    std::span<const std::uint32_t> holes;
+  };
+
+  double radius() const { return radius_; }
+  /// Largest of radius and extent: the S of the accuracy contract.
+  double scale() const;
+  const Network& network() const { return *network_; }
+  const Subdivision& subdivision() const { return subdivision_; }
+  const ZoneCounters& counters() const { return counters_; }
+
+  std::size_t piece_count() const { return element_.size(); }
+  Piece piece(std::uint32_t e) const;
+  std::size_t ring_count() const { return ring_begin_.size() - 1; }
+  std::uint32_t ring_begin(std::uint32_t r) const { return ring_begin_[r]; }
+  bool ring_is_hole(std::uint32_t r) const { return ring_is_hole_[r]; }
+  std::size_t hole_count() const;
+  std::size_t polygon_count() const { return polygon_outer_.size(); }
+  Polygon polygon(std::uint32_t p) const;
+
+  /// Area and length of the boundary, exact up to rounding. O(pieces).
+  double area() const;
+  double perimeter() const;
+
+  /// Topology by Subdivision::validate(), and geometry: pieces join, arcs have the radius, rings have the right sense.
+  std::optional<std::string> validate() const;
+
+ private:
+  friend class ZoneAssembly;
+  /// As piece(), relative to the network's origin.
+  Piece local_piece(std::uint32_t e) const;
+  double ring_area(std::uint32_t r) const;
+
+  double radius_ = 0;
+  std::shared_ptr<const Network> network_;
+  std::vector<Point> vertex_;           // relative to the network's origin; vertex e starts piece e
+  std::vector<std::uint32_t> element_;  // per piece: the boundary element it lies on
+  std::vector<std::uint32_t> ring_begin_;
+  std::vector<bool> ring_is_hole_;
+  std::vector<std::uint32_t> polygon_outer_, polygon_hole_begin_, polygon_hole_;
+  Subdivision subdivision_;
+  ZoneCounters counters_;
+};
+
+struct ZoneOptions {
+  /// Radius of the disk in the input's unit: finite and positive.
+  double radius = 0;
+};
+
+/// The zone of a network by the covered-intervals engine (thesis section 3.3 in a robust form; docs/zone.md).
+///
+/// The topology is exactly that of an instance whose vertices are within 1e-18 S and whose radius is 2^-48 S (or 16 units
+/// in the last place of the coordinates) above the given one, so zones that touch merge and degenerate input needs no care.
+/// Polygons of the network are filled. Errors: radius not finite and positive, or finer than the coordinates' resolution;
+/// cancelled; a result that does not certify. Expected O(n log n); memory about 300 bytes per segment at most.
+Result<Zone> compute_zone(std::shared_ptr<const Network> network, const ZoneOptions& options,
+                          const Context& context = {});
+
+}  // namespace krepl

@@ -1,0 +1,90 @@
+#include "zone/assembly.hpp"
+
+#include "kernel/parallel.hpp"
+
+namespace krepl {
+
+using zone::Index;
+using zone::none;
+
+Zone ZoneAssembly::assemble(std::shared_ptr<const Network> network, double radius, zone::Rings rings, const zone::Nesting& nesting, const ZoneCounters& counters,
+                            const Context& context) {
+  Zone zone;
+  zone.radius_ = radius;
+  zone.network_ = std::move(network);
+  zone.vertex_ = std::move(rings.vertex);
+  zone.element_ = std::move(rings.element);
+  zone.ring_begin_ = std::move(rings.begin);
+  zone.ring_is_hole_ = nesting.is_hole;
+  zone.counters_ = counters;
+  add_polygons(zone, nesting);
+  add_subdivision(zone, nesting, context);
+  return zone;
+}
+
+/// Polygons in the order of their outer rings, holes in ring order.
+void ZoneAssembly::add_polygons(Zone& zone, const zone::Nesting& nesting) {
+  const Index rings = Index(zone.ring_count());
+  std::vector<Index> polygon_of(rings, none);
+  for (Index r = 0; r < rings; ++r) {
+    if (nesting.is_hole[r]) continue;
+    polygon_of[r] = Index(zone.polygon_outer_.size());
+    zone.polygon_outer_.push_back(r);
+  }
+  auto& begin = zone.polygon_hole_begin_;
+  begin.assign(zone.polygon_outer_.size() + 1, 0);
+  for (Index r = 0; r < rings; ++r) {
+    if (nesting.is_hole[r]) ++begin[polygon_of[nesting.parent[r]] + 1];
+  }
+  for (std::size_t p = 0; p + 1 < begin.size(); ++p) begin[p + 1] += begin[p];
+  zone.polygon_hole_.resize(begin.back());
+  std::vector<Index> place(begin.begin(), begin.end() - 1);
+  for (Index r = 0; r < rings; ++r) {
+    if (nesting.is_hole[r]) zone.polygon_hole_[place[polygon_of[nesting.parent[r]]]++] = r;
+  }
+}
+
+/// Faces: 0 the unbounded one, then one per ring, the one on the ring's inner side: the polygon itself for an outer ring, the
+/// open space for a hole.
+void ZoneAssembly::add_subdivision(Zone& zone, const zone::Nesting& nesting, const Context& context) {
+  Subdivision& s = zone.subdivision_;
+  const std::size_t pieces = zone.piece_count();
+  const Index rings = Index(zone.ring_count());
+  s.vertex_count = pieces;
+  s.origin.resize(2 * pieces);
+  s.next.resize(2 * pieces);
+  s.face.resize(2 * pieces);
+  s.face_outer.assign(rings + 1, none);
+
+  // The face on the far side of a ring: for a hole its polygon, for an outer ring the hole around it or face 0.
+  const auto around = [&](Index r) { return nesting.parent[r] == none ? 0 : nesting.parent[r] + 1; };
+  Context quiet;
+  quiet.threads = context.threads;
+  kernel::parallel_blocks(quiet, rings, 64, [&](std::size_t from, std::size_t to) {
+    for (std::size_t r = from; r < to; ++r) {
+      const Index first = zone.ring_begin_[r], last = zone.ring_begin_[r + 1];
+      const bool hole = nesting.is_hole[r];
+      const Index inner = Index(r) + 1, outer = around(Index(r));
+      for (Index e = first; e < last; ++e) {
+        const Index following = e + 1 < last ? e + 1 : first, previous = e > first ? e - 1 : last - 1;
+        s.origin[2 * e] = e;
+        s.origin[2 * e + 1] = following;
+        s.next[2 * e] = 2 * following;
+        s.next[2 * e + 1] = 2 * previous + 1;
+        s.face[2 * e] = hole ? outer : inner;  // the zone
+        s.face[2 * e + 1] = hole ? inner : outer;
+      }
+      s.face_outer[inner] = 2 * first + (hole ? 1 : 0);
+    }
+  });
+  s.face_inner_begin.assign(rings + 2, 0);
+  for (Index r = 0; r < rings; ++r) ++s.face_inner_begin[around(r) + 1];
+  for (Index f = 0; f <= rings; ++f) s.face_inner_begin[f + 1] += s.face_inner_begin[f];
+  s.face_inner.resize(rings);
+  std::vector<Index> place(s.face_inner_begin.begin(), s.face_inner_begin.end() - 1);
+  for (Index r = 0; r < rings; ++r) {
+    s.face_inner[place[around(r)]++] = 2 * zone.ring_begin_[r] + (nesting.is_hole[r] ? 0 : 1);
+  }
+}
+
+}  // namespace krepl

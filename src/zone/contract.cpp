@@ -1,0 +1,164 @@
+#include <cmath>
+
+#include "zone/crossing.hpp"
+#include "zone/rings.hpp"
+
+namespace krepl::zone {
+namespace {
+
+double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
+
+/// One ring while it is being contracted: a doubly linked list, so that contracting k of n pieces costs O(n + k).
+struct Chain {
+  std::vector<Index> element, before, after;
+  std::vector<Point> vertex;
+  Index count = 0;
+  Index head = 0;
+
+  void assign(const Rings& rings, Index first, Index last) {
+    element.assign(rings.element.begin() + first, rings.element.begin() + last);
+    vertex.assign(rings.vertex.begin() + first, rings.vertex.begin() + last);
+    count = last - first;
+    head = 0;
+    before.resize(count);
+    after.resize(count);
+    for (Index i = 0; i < count; ++i) {
+      before[i] = i == 0 ? count - 1 : i - 1;
+      after[i] = i + 1 == count ? 0 : i + 1;
+    }
+  }
+  /// Drops piece i and its first vertex; the piece before it runs on to the one after it.
+  void erase(Index i) {
+    after[before[i]] = after[i];
+    before[after[i]] = before[i];
+    if (i == head) head = after[i];
+    --count;
+  }
+};
+
+class Contraction {
+ public:
+  Contraction(const Instance& instance, double resolution, ZoneCounters& counters)
+      : in_(instance), resolution_(resolution), counters_(counters) {}
+
+  /// Rings that need nothing, nearly all of them, are told by one pass.
+  bool needs_work(const Rings& rings, Index ring) const {
+    const Index first = rings.begin[ring], last = rings.begin[ring + 1];
+    if (last - first < 3) return true;
+    for (Index e = first; e < last; ++e) {
+      const Index n = rings.next(ring, e), m = rings.next(ring, n);
+      if (rings.element[e] == rings.element[n]) return true;
+      const double chord = distance(rings.vertex[n], rings.vertex[m]);
+      if (chord <= resolution_ || (rings.element[e] == rings.element[m] && strays_little(chord))) return true;
+    }
+    return false;
+  }
+
+  void run(Chain& c) {
+    Index settled = 0;  // pieces in a row up to i that need nothing
+    for (Index i = c.head; settled < c.count && c.count > 1;) {
+      if (step(c, i)) {  // only the neighbourhood has to be looked at again
+        i = c.before[c.before[c.before[i]]];
+        settled = settled > 3 ? settled - 3 : 0;
+      } else {
+        i = c.after[i];
+        ++settled;
+      }
+    }
+  }
+
+  /// True if the ring encloses nothing that the coordinates can tell.
+  bool is_thin(const Chain& c) const {
+    const Index e = c.element[c.head];
+    if (c.count == 1) return in_.is_side(e) || in_.sector(in_.vertex_of(e)).before != e;
+    double area = 0, perimeter = 0;
+    Index i = c.head;
+    do {
+      const Point p = c.vertex[i], q = c.vertex[c.after[i]];
+      area += twice_area(in_, c.element[i], p, q, c.vertex[c.head]);
+      perimeter += distance(p, q);
+      i = c.after[i];
+    } while (i != c.head);
+    return std::abs(area) <= resolution_ * perimeter;
+  }
+
+ private:
+  /// An arc or line between two points of another piece's element, `chord` apart, is within the resolution of it.
+  bool strays_little(double chord) const { return chord * chord <= 4 * in_.radius() * resolution_; }
+
+  bool step(Chain& c, Index i) {
+    const Index before = c.before[i], after = c.after[i];
+    if (c.element[before] == c.element[i]) {  // a full circle's start, or what a contraction left
+      c.erase(i);
+      return true;
+    }
+    const double chord = distance(c.vertex[i], c.vertex[after]);
+    const bool tiny = chord <= resolution_;
+    const bool bump = c.count > 2 && c.element[before] == c.element[after] && strays_little(chord);
+    if ((!tiny && !bump) || is_long(c, i)) return false;
+    c.erase(i);
+    ++counters_.collapsed_pieces;
+    return true;
+  }
+
+  bool is_long(const Chain& c, Index i) const {
+    const Index e = c.element[i];
+    if (in_.is_side(e) || in_.sector(in_.vertex_of(e)).before != e) return false;  // at most half a circle
+    return is_long_arc(in_, c.element[c.before[i]], e, c.element[c.after[i]]);
+  }
+
+  const Instance& in_;
+  double resolution_;
+  ZoneCounters& counters_;
+};
+
+}  // namespace
+
+double twice_area(const Instance& in, Index element, Point p, Point q, Point base) {
+  const double ax = p.x - base.x, ay = p.y - base.y, bx = q.x - base.x, by = q.y - base.y;
+  const double triangle = ax * by - ay * bx;
+  if (in.is_side(element)) return triangle;
+  const Point c = in.vertices()[in.vertex_of(element)];
+  const double ux = p.x - c.x, uy = p.y - c.y, vx = q.x - c.x, vy = q.y - c.y;
+  double angle = std::atan2(ux * vy - uy * vx, ux * vx + uy * vy);
+  if (p == q) angle = 2 * M_PI;
+  // Arcs run counter-clockwise; only those of isolated vertices exceed a half circle, others may be a shade below zero.
+  else if (angle < 0) angle = in.sector(in.vertex_of(element)).before == element || angle < -1 ? angle + 2 * M_PI : 0;
+  const double r = in.nominal_radius();
+  return triangle + r * r * (angle - std::sin(angle));
+}
+
+Rings contract(const Instance& instance, Rings rings, double resolution, ZoneCounters& counters) {
+  Contraction contraction(instance, resolution, counters);
+  Index to = 0;  // rings are moved down in place
+  std::vector<Index> begin{0};
+  Chain chain;
+  for (Index r = 0; r < rings.ring_count(); ++r) {
+    const Index first = rings.begin[r], last = rings.begin[r + 1];
+    if (!contraction.needs_work(rings, r)) {
+      for (Index e = first; e < last; ++e, ++to) {
+        rings.element[to] = rings.element[e];
+        rings.vertex[to] = rings.vertex[e];
+      }
+      begin.push_back(to);
+      continue;
+    }
+    chain.assign(rings, first, last);
+    contraction.run(chain);
+    if (contraction.is_thin(chain)) {
+      ++counters.dropped_rings;
+      continue;
+    }
+    for (Index i = chain.head, left = chain.count; left > 0; i = chain.after[i], --left, ++to) {
+      rings.element[to] = chain.element[i];
+      rings.vertex[to] = chain.vertex[i];
+    }
+    begin.push_back(to);
+  }
+  rings.element.resize(to);
+  rings.vertex.resize(to);
+  rings.begin = std::move(begin);
+  return rings;
+}
+
+}  // namespace krepl::zone

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "kernel/quad.hpp"
+#include "krepl/context.hpp"
+#include "krepl/network.hpp"
+
+namespace krepl::zone {
+
+using kernel::quad;
+using Index = std::uint32_t;
+inline constexpr Index none = ~Index{0};
+
+template <class Real>
+struct Vector {
+  Real x, y;
+};
+template <class Real>
+Real length(Vector<Real> v) {
+  return kernel::square_root(v.x * v.x + v.y * v.y);
+}
+
+/// The concrete, non-degenerate instance whose topology is computed (docs/zone.md, "One instance").
+///
+/// Vertices are the network's, moved by at most jitter() = 2^-68 of the extent in a direction that is a hash of their
+/// coordinates; the radius is enlarged by 2^-48 S or 16 units in the last place of the coordinates, whichever is more.
+/// Double precision sees the unmoved vertices and counts the move as an error; quadruple precision sees the moved ones. So every
+/// decision is about the same instance, and decisions taken at different elements cannot contradict each other.
+///
+/// Boundary elements have numbers: 2s is the offset line on the right of segment s as it runs from a to b, 2s+1 the one on
+/// the right of its reverse; side_count() + v is the circle about vertex v. Sites are the segments, then the isolated
+/// vertices as segments of length zero.
+class Instance {
+ public:
+  struct Ends {
+    Index from, to;
+  };
+
+  Instance(const Network& network, double nominal_radius, double radius, const Context& context);
+
+  /// The enlarged radius, which decides everything.
+  double radius() const { return radius_; }
+  /// The radius as given, for coordinates where the difference cannot matter.
+  double nominal_radius() const { return nominal_radius_; }
+  double jitter() const { return jitter_; }
+  /// Largest absolute coordinate of a vertex.
+  double extent() const { return extent_; }
+  std::span<const Point> vertices() const { return vertices_; }
+
+  Index side_count() const { return Index(2 * segments_.size()); }
+  Index element_count() const { return side_count() + Index(vertices_.size()); }
+  Index site_count() const { return Index(segments_.size() + isolated_.size()); }
+  Network::Segment site(Index i) const {
+    return i < segments_.size() ? segments_[i]
+                                : Network::Segment{isolated_[i - segments_.size()], isolated_[i - segments_.size()]};
+  }
+
+  bool is_side(Index element) const { return element < side_count(); }
+  Index circle(Index vertex) const { return side_count() + vertex; }
+  Index vertex_of(Index circle_element) const { return circle_element - side_count(); }
+  /// Ends of the directed segment on whose right the side lies.
+  Ends ends(Index side) const {
+    const auto s = segments_[side >> 1];
+    return (side & 1u) ? Ends{s.b, s.a} : Ends{s.a, s.b};
+  }
+
+  /// The visible sector of a vertex: the side whose end starts its arc and the side that starts where the arc ends; none
+  /// where the segments around the vertex leave no gap above 180 degrees. Both are the circle itself at an isolated vertex.
+  struct Sector {
+    Index before, after;
+  };
+  Sector sector(Index vertex) const { return sectors_[vertex]; }
+
+  /// to - from, in double precision of the unmoved vertices, in quadruple precision of the moved ones.
+  template <class Real>
+  Vector<Real> difference(Index to, Index from) const {
+    if constexpr (std::is_same_v<Real, double>) {
+      return {vertices_[to].x - vertices_[from].x, vertices_[to].y - vertices_[from].y};
+    } else {
+      const auto p = moved(to), q = moved(from);
+      return {p.x - q.x, p.y - q.y};
+    }
+  }
+  Vector<quad> moved(Index vertex) const;
+
+  /// Bound of the error that the move causes in a coordinate, as seen by Real.
+  template <class Real>
+  double unseen_move() const {
+    return std::is_same_v<Real, double> ? jitter_ : 0.0;
+  }
+
+ private:
+  void find_sectors(const Context& context);
+  Sector find_sector(Index vertex, std::span<const Index> outgoing) const;
+  bool turns_left(Index at, Index from, Index to) const;
+
+  std::span<const Point> vertices_;
+  std::span<const Network::Segment> segments_;
+  double nominal_radius_;
+  double radius_;
+  double extent_;
+  double jitter_;
+  std::vector<Index> isolated_;
+  std::vector<Sector> sectors_;
+};
+
+}  // namespace krepl::zone

@@ -1,0 +1,215 @@
+#include "zone/nesting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "kernel/box_tree.hpp"
+#include "kernel/parallel.hpp"
+
+namespace krepl::zone {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Index chunk = 16;  // consecutive pieces under one box
+
+using kernel::Box;
+
+double cross(Point o, Point p, Point q) { return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x); }
+
+/// Everything about one piece that the ray needs.
+class PieceShape {
+ public:
+  PieceShape(const Instance& in, Index element, Point p, Point q) : p_(p), q_(q), radius_(in.nominal_radius()) {
+    arc_ = !in.is_side(element);
+    if (arc_) centre_ = in.vertices()[in.vertex_of(element)];
+  }
+
+  Box box() const {
+    Box b;
+    b.add(p_);
+    b.add(q_);
+    if (!arc_) return b;
+    const Point c = centre_;
+    for (const Point e : {Point{c.x + radius_, c.y}, {c.x, c.y + radius_}, {c.x - radius_, c.y}, {c.x, c.y - radius_}}) {
+      if (on_arc(e)) b.add(e);
+    }
+    return b;
+  }
+
+  Point leftmost() const {
+    const Point e{centre_.x - radius_, centre_.y};
+    if (arc_ && on_arc(e)) return e;
+    return p_.x <= q_.x ? p_ : q_;
+  }
+
+  /// The largest x below `limit_x` at height y on the piece; -infinity if there is none. Ends count as hit.
+  double hit_left_of(double limit_x, double y) const {
+    double best = -infinity;
+    const auto take = [&](double x) {
+      if (x < limit_x) best = std::max(best, x);
+    };
+    if (p_.y == y) take(p_.x);
+    if (q_.y == y) take(q_.x);
+    if (!arc_) {
+      if ((p_.y < y) != (q_.y < y)) take(p_.x + (y - p_.y) / (q_.y - p_.y) * (q_.x - p_.x));
+      return best;
+    }
+    const double dy = y - centre_.y;
+    const double square = (radius_ - dy) * (radius_ + dy);
+    if (square < 0) return best;
+    const double half = std::sqrt(square);
+    for (const double x : {centre_.x - half, centre_.x + half}) {
+      if (on_arc({x, y})) take(x);
+    }
+    return best;
+  }
+
+ private:
+  /// For a point of the circle: is it on the arc from p counter-clockwise to q?
+  bool on_arc(Point e) const {
+    return p_ == q_ || cross(p_, q_, e) <= 0;  // right of the chord
+  }
+
+  Point p_, q_, centre_;
+  double radius_;
+  bool arc_;
+};
+
+class Picture {
+ public:
+  Picture(const Instance& in, const Rings& rings) : in_(in), rings_(rings), ring_of_(rings.element.size()) {
+    for (Index r = 0; r < rings.ring_count(); ++r) {
+      std::fill(ring_of_.begin() + rings.begin[r], ring_of_.begin() + rings.begin[r + 1], r);
+    }
+  }
+  PieceShape shape(Index e) const {
+    return {in_, rings_.element[e], rings_.vertex[e], rings_.vertex[rings_.next(ring_of_[e], e)]};
+  }
+  Index ring_of(Index e) const { return ring_of_[e]; }
+
+ private:
+  const Instance& in_;
+  const Rings& rings_;
+  std::vector<Index> ring_of_;
+};
+
+bool runs_clockwise(const Instance& in, const Rings& rings, Index r) {
+  double area = 0;
+  const Index first = rings.begin[r];
+  for (Index e = first; e < rings.begin[r + 1]; ++e) {
+    area += twice_area(in, rings.element[e], rings.vertex[e], rings.vertex[rings.next(r, e)], rings.vertex[first]);
+  }
+  return area < 0;
+}
+
+}  // namespace
+
+Nesting nest(const Instance& in, const Rings& rings, const Context& context) {
+  const Index count = rings.ring_count();
+  Nesting nesting{std::vector<bool>(count), std::vector<Index>(count, none)};
+  if (count == 1) return nesting;
+  Context quiet;
+  quiet.threads = context.threads;
+  const Picture picture(in, rings);
+
+  std::vector<char> clockwise(count);
+  std::vector<Point> leftmost(count, {infinity, 0});
+  kernel::parallel_blocks(quiet, count, 64, [&](std::size_t from, std::size_t to) {
+    for (std::size_t r = from; r < to; ++r) {
+      clockwise[r] = runs_clockwise(in, rings, Index(r));
+      for (Index e = rings.begin[r]; e < rings.begin[r + 1]; ++e) {
+        const Point p = picture.shape(e).leftmost();
+        if (p.x < leftmost[r].x) leftmost[r] = p;
+      }
+    }
+  });
+  const std::size_t pieces = rings.element.size();
+  std::vector<Box> boxes((pieces + chunk - 1) / chunk);
+  kernel::parallel_blocks(quiet, boxes.size(), 1 << 10, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from * chunk; i < std::min(pieces, to * chunk); ++i) {
+      boxes[i / chunk].add(picture.shape(Index(i)).box());
+    }
+  });
+  const kernel::BoxTree tree(std::move(boxes));
+
+  std::vector<Index> met(count, none);  // the ring that the ray to the left meets first
+  kernel::parallel_blocks(quiet, count, 64, [&](std::size_t from, std::size_t to) {
+    for (std::size_t r = from; r < to; ++r) {
+      double best = -infinity;
+      tree.visit_left_of(leftmost[r], [&] { return best; }, [&](std::size_t box) {
+        for (std::size_t e = box * chunk; e < std::min(pieces, (box + 1) * chunk); ++e) {
+          if (picture.ring_of(Index(e)) == r) continue;
+          const double x = picture.shape(Index(e)).hit_left_of(leftmost[r].x, leftmost[r].y);
+          if (x > best) best = x, met[r] = picture.ring_of(Index(e));
+        }
+      });
+    }
+  });
+
+  // The ring met lies further left, so in this order its own parent is known.
+  std::vector<Index> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](Index r, Index s) {
+    return leftmost[r].x != leftmost[s].x ? leftmost[r].x < leftmost[s].x : r < s;
+  });
+  for (const Index r : order) {
+    nesting.is_hole[r] = clockwise[r];
+    const Index s = met[r];
+    if (s == none) continue;
+    // Same kind: both border the same face. Different kinds: r lies directly in s.
+    nesting.parent[r] = bool(clockwise[s]) == bool(clockwise[r]) ? nesting.parent[s] : s;
+  }
+  return nesting;
+}
+
+Rings drop_rings_inside_polygons(const Network& network, Rings rings) {
+  struct Side {
+    Point p, q;
+    std::int64_t feature;
+  };
+  std::vector<Side> sides;
+  for (Index part = 0; part < network.part_count(); ++part) {
+    if (!network.part_is_ring(part)) continue;
+    const auto chain = network.part(part);
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      const Index a = chain[i], b = chain[(i + 1) % chain.size()];
+      if (a != b) sides.push_back({network.vertices()[a], network.vertices()[b], network.part_feature(part)});
+    }
+  }
+  std::vector<Box> boxes((sides.size() + chunk - 1) / chunk);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    boxes[i / chunk].add(sides[i].p);
+    boxes[i / chunk].add(sides[i].q);
+  }
+  const kernel::BoxTree tree(std::move(boxes));
+  std::vector<std::int64_t> hits;
+  const auto inside = [&](Point p) {
+    hits.clear();
+    tree.visit_left_of(p, [] { return -infinity; }, [&](std::size_t box) {
+      for (std::size_t i = box * chunk; i < std::min(sides.size(), (box + 1) * chunk); ++i) {
+        const Side& s = sides[i];
+        if ((s.p.y <= p.y) == (s.q.y <= p.y)) continue;
+        const bool upward = s.p.y < s.q.y;
+        if ((cross(s.p, s.q, p) < 0) == upward) hits.push_back(s.feature);
+      }
+    });
+    std::sort(hits.begin(), hits.end());
+    for (std::size_t i = 0, j = 0; i < hits.size(); i = j) {
+      while (j < hits.size() && hits[j] == hits[i]) ++j;
+      if ((j - i) % 2 == 1) return true;
+    }
+    return false;
+  };
+  Rings kept;
+  for (Index r = 0; r < rings.ring_count(); ++r) {
+    const auto first = rings.begin[r], last = rings.begin[r + 1];
+    if (inside(rings.vertex[first])) continue;
+    kept.element.insert(kept.element.end(), rings.element.begin() + first, rings.element.begin() + last);
+    kept.vertex.insert(kept.vertex.end(), rings.vertex.begin() + first, rings.vertex.begin() + last);
+    kept.begin.push_back(Index(kept.element.size()));
+  }
+  return kept;
+}
+
+}  // namespace krepl::zone

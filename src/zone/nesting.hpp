@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "krepl/context.hpp"
+#include "krepl/network.hpp"
+#include "zone/rings.hpp"
+
+namespace krepl::zone {
+
+/// How rings lie in each other. For a hole: the outer ring of its component. For an outer ring: the hole it lies in, or
+/// none if it borders the unbounded face.
+struct Nesting {
+  std::vector<bool> is_hole;
+  std::vector<Index> parent;
+};
+
+/// By a ray from each ring's leftmost point to the next ring on its left. O((rings + pieces) log pieces), expected.
+Nesting nest(const Instance& instance, const Rings& rings, const Context& context);
+
+/// Drops the rings that lie inside a polygon of the network (even-odd rule per feature): their far side is filled. Each ring keeps a
+/// distance of R from all input, so a single point of it decides.
+Rings drop_rings_inside_polygons(const Network& network, Rings rings);
+
+}  // namespace krepl::zone

@@ -1,0 +1,118 @@
+#include "krepl/zone.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace krepl {
+namespace {
+
+double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
+
+/// Counter-clockwise angle from p to q about c, in (0, 2 pi]; equal points mean the full circle.
+double sweep_angle(Point c, Point p, Point q) {
+  const double ux = p.x - c.x, uy = p.y - c.y, vx = q.x - c.x, vy = q.y - c.y;
+  const double angle = std::atan2(ux * vy - uy * vx, ux * vx + uy * vy);
+  return angle > 0 ? angle : angle + 2 * M_PI;
+}
+
+}  // namespace
+
+double Zone::scale() const { return std::max(radius_, network_->extent()); }
+
+Zone::Piece Zone::local_piece(std::uint32_t e) const {
+  const auto ring = std::upper_bound(ring_begin_.begin(), ring_begin_.end(), e);
+  const std::uint32_t next = e + 1 < *ring ? e + 1 : *(ring - 1);
+  Piece p{Kind::segment, vertex_[e], vertex_[next], {}, 0, false};
+  const std::size_t sides = 2 * network_->segments().size();
+  if (element_[e] < sides) {
+    p.source = element_[e] / 2;
+    p.reversed = element_[e] % 2 != 0;
+  } else {
+    p.kind = Kind::arc;
+    p.source = std::uint32_t(element_[e] - sides);
+    p.center = network_->vertices()[p.source];
+  }
+  return p;
+}
+
+Zone::Piece Zone::piece(std::uint32_t e) const {
+  Piece p = local_piece(e);
+  const Point o = network_->origin();
+  for (Point* q : {&p.start, &p.end, &p.center}) *q = {q->x + o.x, q->y + o.y};
+  if (p.kind == Kind::segment) p.center = {};
+  return p;
+}
+
+std::size_t Zone::hole_count() const {
+  return std::size_t(std::count(ring_is_hole_.begin(), ring_is_hole_.end(), true));
+}
+
+Zone::Polygon Zone::polygon(std::uint32_t p) const {
+  return {polygon_outer_[p],
+          {polygon_hole_.data() + polygon_hole_begin_[p], polygon_hole_begin_[p + 1] - polygon_hole_begin_[p]}};
+}
+
+double Zone::ring_area(std::uint32_t r) const {
+  const std::uint32_t first = ring_begin_[r], last = ring_begin_[r + 1];
+  const Point o = vertex_[first];
+  double twice = 0;
+  for (std::uint32_t e = first; e < last; ++e) {
+    const Piece p = local_piece(e);
+    twice += (p.start.x - o.x) * (p.end.y - o.y) - (p.start.y - o.y) * (p.end.x - o.x);
+    if (p.kind == Kind::arc) {
+      const double angle = sweep_angle(p.center, p.start, p.end);
+      twice += radius_ * radius_ * (angle - std::sin(angle));
+    }
+  }
+  return twice / 2;
+}
+
+double Zone::area() const {
+  double sum = 0;
+  for (std::uint32_t r = 0; r < ring_count(); ++r) sum += ring_area(r);
+  return sum;
+}
+
+double Zone::perimeter() const {
+  double sum = 0;
+  for (std::uint32_t e = 0; e < piece_count(); ++e) {
+    const Piece p = local_piece(e);
+    sum += p.kind == Kind::arc ? radius_ * sweep_angle(p.center, p.start, p.end) : distance(p.start, p.end);
+  }
+  return sum;
+}
+
+std::optional<std::string> Zone::validate() const {
+  if (auto wrong = subdivision_.validate()) return wrong;
+  const double tolerance = 1e-9 * scale();
+  for (std::uint32_t e = 0; e < piece_count(); ++e) {
+    const Piece p = local_piece(e);
+    const auto complain = [&](const char* what) {
+      return std::string(what) + " at piece " + std::to_string(e) + ", near x " + std::to_string(p.start.x + network_->origin().x) +
+             ", y " + std::to_string(p.start.y + network_->origin().y);
+    };
+    if (!std::isfinite(p.start.x) || !std::isfinite(p.start.y)) return complain("a vertex is not finite");
+    if (p.kind == Kind::arc) {
+      for (const Point q : {p.start, p.end}) {
+        if (!(std::abs(distance(q, p.center) - radius_) <= tolerance)) return complain("an arc misses its radius");
+      }
+      continue;
+    }
+    // Both ends of a segment are on the offset line of its source, and it runs with it.
+    const auto s = network_->segments()[p.source];
+    Point a = network_->vertices()[s.a], b = network_->vertices()[s.b];
+    if (p.reversed) std::swap(a, b);
+    const double length = distance(a, b), ux = (b.x - a.x) / length, uy = (b.y - a.y) / length;
+    for (const Point q : {p.start, p.end}) {
+      const double off = (q.x - a.x) * uy - (q.y - a.y) * ux;
+      if (!(std::abs(off - radius_) <= tolerance)) return complain("a segment is off its offset line");
+    }
+    if ((p.end.x - p.start.x) * ux + (p.end.y - p.start.y) * uy < -tolerance) return complain("a segment runs backwards");
+  }
+  for (std::uint32_t r = 0; r < ring_count(); ++r) {
+    if ((ring_area(r) < 0) != ring_is_hole_[r]) return "ring " + std::to_string(r) + " runs the wrong way round";
+  }
+  return std::nullopt;
+}
+
+}  // namespace krepl
