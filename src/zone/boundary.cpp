@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "kernel/box_tree.hpp"
 #include "kernel/parallel.hpp"
 
 namespace krepl::zone {
@@ -50,9 +51,25 @@ Hull hull_of_circle(const Instance& in, Index element) {
   const double sagitta = r * (1 - half_cosine) * (1 + 1e-12) + r * 1e-12;
   const Vector<double> s{c.x + r * u.x, c.y + r * u.y}, t{c.x + r * w.x, c.y + r * w.y};
   const Vector<double> lift{middle.x * sagitta, middle.y * sagitta};
-  const double chord = std::hypot(t.x - s.x, t.y - s.y);
+  const double chord = length(Vector<double>{t.x - s.x, t.y - s.y});
   return {{s, t, {t.x + lift.x, t.y + lift.y}, {s.x + lift.x, s.y + lift.y}}, 4,
           {(s.x + t.x) / 2 + lift.x / 2, (s.y + t.y) / 2 + lift.y / 2}, chord / 2 + sagitta};
+}
+
+/// Centre and half width of the stretch of an element between two parameters.
+template <class Element>
+Hull hull_of_stretch(const Instance& in, const Element& element, double low, double high) {
+  const Point base = in.vertices()[element.base()];
+  const auto place = [&](double parameter) {
+    const Vector<double> v = element.point(parameter);
+    return Vector<double>{base.x + v.x, base.y + v.y};
+  };
+  // An arc of up to half a circle reaches furthest from its chord's middle at its ends or at its own middle, and the diamond
+  // angle's middle is close to that; a tenth more covers the difference.
+  const Vector<double> p = place(low), q = place(high), m = place((low + high) / 2);
+  const Vector<double> c{(p.x + q.x) / 2, (p.y + q.y) / 2};
+  const double half = std::max(length(Vector<double>{p.x - c.x, p.y - c.y}), length(Vector<double>{m.x - c.x, m.y - c.y})) * 1.1;
+  return {{Vector<double>{c.x - half, c.y - half}, {c.x + half, c.y + half}}, 2, c, half};
 }
 
 SiteTree::Region region_of(const SiteTree& tree, const Hull& hull, double radius) {
@@ -100,6 +117,10 @@ class Worker {
 
   void run(Index first, Index last, std::vector<Piece>& out, ZoneCounters& counters) {
     for (Index e = first; e < last; ++e) {
+      if (e % group == 0 || e == first || e == in_.side_count()) {
+        group_end_ = std::min(last, e - e % group + group);
+        has_frontier_ = false;
+      }
       if (in_.is_side(e)) {
         examine<SideElement>(e, hull_of_side(in_, e), out, counters);
       } else if (in_.sector(in_.vertex_of(e)).before != none) {
@@ -110,6 +131,28 @@ class Worker {
 
  private:
   static constexpr int remembered = 2;
+  static constexpr Index group = 16;  // elements that share a frontier: consecutive ones are neighbours
+
+  /// The search of all elements of the group starts from nodes within R of them, that is within 2R of their vertices.
+  const SiteTree::Frontier& frontier(Index element) {
+    if (has_frontier_) return frontier_;
+    has_frontier_ = true;
+    kernel::Box box;
+    const Index end = in_.is_side(element) ? std::min(group_end_, in_.side_count()) : group_end_;
+    for (Index e = element; e < end; ++e) {
+      if (in_.is_side(e)) {
+        box.add(in_.vertices()[in_.ends(e).from]);
+        box.add(in_.vertices()[in_.ends(e).to]);
+      } else {
+        box.add(in_.vertices()[in_.vertex_of(e)]);
+      }
+    }
+    const Vector<double> low{box.min_x, box.min_y}, high{box.max_x, box.max_y};
+    const double half_width = square_root((high.x - low.x) * (high.x - low.x) + (high.y - low.y) * (high.y - low.y)) / 2;
+    frontier_ = tree_.frontier(
+        tree_.region({(low.x + high.x) / 2, (low.y + high.y) / 2}, half_width, low, high, 2 * in_.radius()));
+    return frontier_;
+  }
 
   bool covered_by_recent(Index element, const Hull& hull) {
     if (!quick_) return false;
@@ -137,14 +180,22 @@ class Worker {
     const Element<double> element(in_, e);
     gaps_.start(e, element.end(), element.end_error(), element.start_label(), element.end_label());
     bool covered = false;
-    tree_.visit_nearest(region_of(tree_, hull, in_.radius()), heap_, [&](Index site) {
+    double open = element.end();
+    SiteTree::Region region = region_of(tree_, hull, in_.radius());
+    tree_.visit_nearest(frontier(e), region, heap_, [&](Index site) {
       ++counters.candidates;
       if (quick_ && contains(in_, site, hull)) {
         remember(e, site);
         return !(covered = true);
       }
       for (const Cover<double>& c : element.covered_by(site)) covered = covered || gaps_.subtract(c);
-      return !covered;
+      if (covered) return false;
+      const double left = gaps_.open_high() - gaps_.open_low();
+      if (left < 0.7 * open && left <= Element<double>::longest_simple_stretch) {
+        open = left;
+        region = region_of(tree_, hull_of_stretch(in_, element, gaps_.open_low(), gaps_.open_high()), in_.radius());
+      }
+      return true;
     });
     ++counters.elements_in_double;
     if (covered) return;
@@ -178,6 +229,9 @@ class Worker {
   const Instance& in_;
   const SiteTree& tree_;
   bool quick_;
+  Index group_end_ = 0;
+  bool has_frontier_ = false;
+  SiteTree::Frontier frontier_;
   std::array<std::array<Index, remembered>, 2> recent_{{{none, none}, {none, none}}};
   std::vector<SiteTree::Entry> heap_;
   Gaps<double> gaps_;

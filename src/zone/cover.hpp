@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "zone/instance.hpp"
 
@@ -45,6 +46,9 @@ struct SideSite;
 template <class Real>
 class SideElement {
  public:
+  /// A stretch no longer than this lies within its chord's middle's distance to its ends and its own middle.
+  static constexpr double longest_simple_stretch = std::numeric_limits<double>::infinity();
+
   SideElement(const Instance& instance, Index element);
 
   Real end() const { return length_; }
@@ -52,6 +56,10 @@ class SideElement {
   /// What the element continues on at its start and end; `none` where a segment at the same vertex covers that end.
   Index start_label() const { return start_label_; }
   Index end_label() const { return end_label_; }
+  /// The point at parameter u, relative to the start of the element's segment.
+  Vector<Real> point(Real u) const { return {u_.x * u + u_.y * radius_, u_.y * u - u_.x * radius_}; }
+  /// The vertex that point() is relative to.
+  Index base() const { return ends_.from; }
   /// The part covered by the site's cigar.
   Covers<Real> covered_by(Index site) const;
 
@@ -78,12 +86,21 @@ class SideElement {
 template <class Real>
 class CircleElement {
  public:
+  static constexpr double longest_simple_stretch = 2;  // half a circle
+
   CircleElement(const Instance& instance, Index element);
 
   Real end() const { return end_; }
   Real end_error() const { return frame_error_; }
   Index start_label() const { return sector_.before; }
   Index end_label() const { return sector_.after; }
+  /// The point at diamond angle d, relative to the vertex.
+  Vector<Real> point(Real d) const {
+    const Real x = d < 2 ? 1 - d : d - 3, y = d < 1 ? d : d < 3 ? 2 - d : d - 4;
+    const Real scale = radius_ / kernel::square_root(x * x + y * y);
+    return {(u_.x * x - u_.y * y) * scale, (u_.y * x + u_.x * y) * scale};
+  }
+  Index base() const { return vertex_; }
   Covers<Real> covered_by(Index site) const;
 
  private:

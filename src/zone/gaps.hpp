@@ -33,6 +33,9 @@ class Gaps {
   Real margin() const;
 
   const std::vector<Cover<Real>>& covers() const { return covers_; }
+  /// Where something may be left: parameters between its ends, precondition: subtract() has not returned true.
+  Real open_low() const { return open_.front().low; }
+  Real open_high() const { return open_.back().high; }
 
  private:
   struct Stretch {

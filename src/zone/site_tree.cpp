@@ -1,5 +1,9 @@
 #include "zone/site_tree.hpp"
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,18 +23,6 @@ float up(double x) {
   const float f = float(x);
   return double(f) < x ? std::nextafter(f, infinity) : f;
 }
-
-using Lanes = float __attribute__((vector_size(32)));
-using Mask = std::int32_t __attribute__((vector_size(32)));
-
-Lanes load(const float* p) {
-  Lanes v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-Lanes all(float x) { return Lanes{} + x; }
-Lanes positive(Lanes v) { return v > Lanes{} ? v : Lanes{}; }
-Lanes larger(Lanes a, Lanes b) { return a > b ? a : b; }
 
 }  // namespace
 
@@ -79,19 +71,69 @@ SiteTree::Region SiteTree::region(Vector<double> centre, double half_width, Vect
           float(low.y) - margin, float(high.x) + margin, float(high.y) + margin};
 }
 
-void SiteTree::open(const Node& node, std::uint32_t first_child, std::uint32_t child_level, const Region& r,
-                    std::vector<Entry>& heap) const {
-  const Lanes min_x = load(node.min_x), min_y = load(node.min_y), max_x = load(node.max_x), max_y = load(node.max_y);
-  const Lanes dx = positive(larger(min_x - r.x, all(r.x) - max_x));
-  const Lanes dy = positive(larger(min_y - r.y, all(r.y) - max_y));
-  const Lanes distance = dx * dx + dy * dy;
-  const Mask meets = (distance <= all(r.reach_squared)) & (min_x <= all(r.max_x)) & (max_x >= all(r.min_x)) &
-                     (min_y <= all(r.max_y)) & (max_y >= all(r.min_y));
-  for (int k = 0; k < arity; ++k) {
-    if (!meets[k]) continue;
-    heap.push_back({distance[k], child_level, first_child + std::uint32_t(k)});
-    std::push_heap(heap.begin(), heap.end());
+SiteTree::Frontier SiteTree::frontier(const Region& region) const {
+  constexpr std::size_t most = Frontier::nodes * arity;
+  std::vector<Frontier::Member> members{{std::uint32_t(levels_.size()), 0}}, below;
+  std::vector<const float*> boxes, boxes_below;  // min_x of the member; the other bounds follow at distance arity
+  float distance[arity];
+  while (members[0].level > 1 || boxes.empty()) {
+    below.clear();
+    boxes_below.clear();
+    for (const auto m : members) {
+      const Node& node = levels_[m.level - 1][m.index];
+      for (unsigned bits = meeting(node, region, distance); bits != 0; bits &= bits - 1) {
+        const int k = __builtin_ctz(bits);
+        below.push_back({m.level - 1, m.index * arity + std::uint32_t(k)});
+        boxes_below.push_back(node.min_x + k);
+      }
+    }
+    if (below.empty() || below.size() > most) break;
+    members.swap(below);
+    boxes.swap(boxes_below);
   }
+  Frontier f;
+  f.count_ = int(boxes.size());
+  for (std::size_t i = 0; i < most; ++i) {
+    Node& node = f.boxes_[i / arity];
+    const std::size_t k = i % arity;
+    const bool used = i < boxes.size();
+    node.min_x[k] = used ? boxes[i][0] : infinity, node.min_y[k] = used ? boxes[i][arity] : infinity;
+    node.max_x[k] = used ? boxes[i][2 * arity] : -infinity, node.max_y[k] = used ? boxes[i][3 * arity] : -infinity;
+    if (used) f.members_[i] = members[i];
+  }
+  return f;
+}
+
+unsigned SiteTree::meeting(const Node& node, const Region& r, float distance[arity]) {
+  unsigned bits = 0;
+#ifdef __SSE2__
+  const __m128 zero = _mm_setzero_ps();
+  for (int k = 0; k < arity; k += 4) {
+    const __m128 min_x = _mm_loadu_ps(node.min_x + k), min_y = _mm_loadu_ps(node.min_y + k);
+    const __m128 max_x = _mm_loadu_ps(node.max_x + k), max_y = _mm_loadu_ps(node.max_y + k);
+    const __m128 x = _mm_set1_ps(r.x), y = _mm_set1_ps(r.y);
+    const __m128 dx = _mm_max_ps(_mm_max_ps(_mm_sub_ps(min_x, x), _mm_sub_ps(x, max_x)), zero);
+    const __m128 dy = _mm_max_ps(_mm_max_ps(_mm_sub_ps(min_y, y), _mm_sub_ps(y, max_y)), zero);
+    const __m128 d = _mm_add_ps(_mm_mul_ps(dx, dx), _mm_mul_ps(dy, dy));
+    __m128 meets = _mm_cmple_ps(d, _mm_set1_ps(r.reach_squared));
+    meets = _mm_and_ps(meets, _mm_cmple_ps(min_x, _mm_set1_ps(r.max_x)));
+    meets = _mm_and_ps(meets, _mm_cmpge_ps(max_x, _mm_set1_ps(r.min_x)));
+    meets = _mm_and_ps(meets, _mm_cmple_ps(min_y, _mm_set1_ps(r.max_y)));
+    meets = _mm_and_ps(meets, _mm_cmpge_ps(max_y, _mm_set1_ps(r.min_y)));
+    _mm_storeu_ps(distance + k, d);
+    bits |= unsigned(_mm_movemask_ps(meets)) << k;
+  }
+#else
+  for (int k = 0; k < arity; ++k) {
+    const float dx = std::max(std::max(node.min_x[k] - r.x, r.x - node.max_x[k]), 0.f);
+    const float dy = std::max(std::max(node.min_y[k] - r.y, r.y - node.max_y[k]), 0.f);
+    distance[k] = dx * dx + dy * dy;
+    const bool meets = distance[k] <= r.reach_squared && node.min_x[k] <= r.max_x && node.max_x[k] >= r.min_x &&
+                       node.min_y[k] <= r.max_y && node.max_y[k] >= r.min_y;
+    bits |= unsigned(meets) << k;
+  }
+#endif
+  return bits;
 }
 
 }  // namespace krepl::zone

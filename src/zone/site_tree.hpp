@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,46 +22,77 @@ class SiteTree {
     float min_x, min_y, max_x, max_y;
   };
 
-  SiteTree(const Instance& instance, const Context& context);
-
-  /// Region of all sites within `radius` of an element with the given centre, half width and box.
-  Region region(Vector<double> centre, double half_width, Vector<double> low, Vector<double> high, double radius) const;
-
-  /// Visits sites whose box meets the region, by growing distance of their boxes from the centre, until visit(site) returns
-  /// false. `heap` is scratch memory that callers reuse.
   struct Entry {
     float distance;
     std::uint32_t level;  // 0: a site
     std::uint32_t index;
     bool operator<(const Entry& e) const { return distance > e.distance; }  // for a min-heap
   };
+
+  SiteTree(const Instance& instance, const Context& context);
+
+  /// Region of all sites within `radius` of an element with the given centre, half width and box.
+  Region region(Vector<double> centre, double half_width, Vector<double> low, Vector<double> high, double radius) const;
+
+  /// A few nodes that hold all sites of a region: where the searches of a group of neighbouring elements start, instead of
+  /// at the root.
+  class Frontier;
+  Frontier frontier(const Region& region) const;
+
+  /// Visits sites whose box meets the region, by growing distance of their boxes from the centre, until visit(site) returns
+  /// false. The visitor may shrink the region meanwhile. `heap` is scratch memory that callers reuse.
   template <class Visit>
-  void visit_nearest(const Region& region, std::vector<Entry>& heap, Visit&& visit) const;
+  void visit_nearest(const Frontier& frontier, const Region& region, std::vector<Entry>& heap, Visit&& visit) const;
 
  private:
   static constexpr int arity = 8;
   struct Node {
     float min_x[arity], min_y[arity], max_x[arity], max_y[arity];
   };
-  void open(const Node& node, std::uint32_t first_child, std::uint32_t child_level, const Region& r,
-            std::vector<Entry>& heap) const;
+  /// Which children meet the region, as bits, and their squared distances from its centre.
+  static unsigned meeting(const Node& node, const Region& region, float distance[arity]);
 
   float slack_;
   std::vector<std::vector<Node>> levels_;  // levels_[0]: boxes of sites; the last level is one node
 };
 
+class SiteTree::Frontier {
+ private:
+  friend class SiteTree;
+  static constexpr int nodes = 2;
+  struct Member {
+    std::uint32_t level, index;
+  };
+  std::array<Node, nodes> boxes_;  // of the members, eight each
+  std::array<Member, nodes * arity> members_;
+  int count_ = 0;
+};
+
 template <class Visit>
-void SiteTree::visit_nearest(const Region& region, std::vector<Entry>& heap, Visit&& visit) const {
+void SiteTree::visit_nearest(const Frontier& frontier, const Region& region, std::vector<Entry>& heap,
+                             Visit&& visit) const {
   heap.clear();
-  heap.push_back({0.f, std::uint32_t(levels_.size()), 0});
+  float distance[arity];
+  for (int n = 0; n * arity < frontier.count_; ++n) {
+    for (unsigned bits = meeting(frontier.boxes_[n], region, distance); bits != 0; bits &= bits - 1) {
+      const int k = __builtin_ctz(bits);
+      const auto m = frontier.members_[n * arity + k];
+      heap.push_back({distance[k], m.level, m.index});
+    }
+  }
+  std::make_heap(heap.begin(), heap.end());
   while (!heap.empty()) {
     std::pop_heap(heap.begin(), heap.end());
     const Entry e = heap.back();
     heap.pop_back();
     if (e.level == 0) {
       if (!visit(e.index)) return;
-    } else {
-      open(levels_[e.level - 1][e.index], e.index * arity, e.level - 1, region, heap);
+      continue;
+    }
+    for (unsigned bits = meeting(levels_[e.level - 1][e.index], region, distance); bits != 0; bits &= bits - 1) {
+      const int k = __builtin_ctz(bits);
+      heap.push_back({distance[k], e.level - 1, e.index * arity + std::uint32_t(k)});
+      std::push_heap(heap.begin(), heap.end());
     }
   }
 }
