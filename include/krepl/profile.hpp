@@ -44,8 +44,8 @@ struct ProfileRow {
 /// "s3" for what segment 3 causes, "v4" for what vertex 4 does.
 std::string profile_cause(const ProfileRow& row);
 
-/// Piece k in full. Preconditions: `pieces` is the whole result for `terrain` and `radius`, k < pieces.size().
-ProfileRow profile_row(std::span<const Point> terrain, double radius, std::span<const ProfilePiece> pieces, std::size_t k);
+/// Piece k in full. Preconditions: `pieces` is the whole result for `terrain`, k < pieces.size().
+ProfileRow profile_row(std::span<const Point> terrain, std::span<const ProfilePiece> pieces, std::size_t k);
 
 /// The vertices of a result: pieces.size() - 1 in all. An explicit one is a crossing of two pieces that do not continue
 /// each other smoothly; at most n - 1 of them.
@@ -105,7 +105,7 @@ struct Profile {
   std::vector<Point> terrain;
   std::vector<ProfilePiece> pieces;
   ProfileCounters counters;
-  ProfileRow row(std::size_t k) const { return profile_row(terrain, radius, pieces, k); }
+  ProfileRow row(std::size_t k) const { return profile_row(terrain, pieces, k); }
 };
 /// ProfileEngine::compute with storage of its own; the same errors.
 Result<Profile> compute_profile(std::vector<Point> terrain, double radius, const Context& context = {});

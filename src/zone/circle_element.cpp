@@ -150,8 +150,10 @@ Covers<Real> CircleElement<Real>::covered_by(Index site) const {
   const Real low_t = std::min(ta, tb), high_t = std::max(ta, tb);
   if (touching) {
     const bool beyond = low_t > reach + t_error || high_t < -reach - t_error;
+    const bool inside = low_t < -reach - t_error && high_t > reach + t_error;
     if (!beyond) {
-      add_nearly_touching(out, m, 2 * s, site, k < 0);
+      const Real anywhere = 8;  // an end of the segment is as near as the errors: this precision tells nothing
+      add_nearly_touching(out, m, k < 0 && !inside ? anywhere : 2 * s, site, k < 0 && inside);
       return out;
     }
   }
@@ -168,7 +170,8 @@ Covers<Real> CircleElement<Real>::covered_by(Index site) const {
       end.label_certain = certain;
       continue;
     }
-    const bool at_a = (contact <= low_t) == (ta < tb);
+    // t runs against the segment where the vertex lies on the right of it: known even where ta and tb round to the same.
+    const bool at_a = (contact <= low_t) != left;
     const Vector<Real> q = at_a ? a : b;
     if (!add_circle_end(end, q, rounding * (absolute(q.x) + absolute(q.y)) + 4 * unseen_, at_a ? ends.a : ends.b, direction)) {
       if (certain) return out;

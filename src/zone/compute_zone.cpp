@@ -23,9 +23,9 @@ std::string number(double x) {
 
 /// Error budget, in terms of S = max(R, extent) and u, the unit in the last place of the largest output coordinate:
 ///   g: radius enlarged by     max(16 u, 2^-48 S), so that what comes that close merges     <= 3.6e-15 S
-///   vertices moved by         2^-68 extent, in ill-conditioned places only                 <= 3.4e-21 S
+///   vertices moved by         2^-80 extent, in ill-conditioned places only                 <= 8.3e-25 S
 ///   evaluation of a vertex    a few u                                                      ~ 1e-15 S
-///   contraction of pieces     up to 64 g along the boundary, 64 g off it                   <= 2.3e-13 S
+///   contraction of pieces     up to 64 g along the boundary, g off it                      <= 2.3e-13 S
 /// where u <= 2^-52 S unless the data lies far from its own origin, when u is what the format can hold. Vertices are evaluated
 /// with the nominal radius where that shifts them by at most 16 g (crossing.cpp), so 64 g keeps their order along a piece.
 struct Precision {
@@ -43,9 +43,9 @@ Result<Precision> precision_for(const Network& network, double radius) {
                  "scale the input"};
   }
   const double u = std::max(network.resolution(), unit_in_last_place(scale));
-  if (radius < 1024 * u) {
+  if (radius < 16384 * u) {
     return Error{ErrorCode::usage, "the radius " + number(radius) + " is finer than the coordinates can hold", "",
-                 "use at least " + number(1024 * u)};
+                 "use at least " + number(16384 * u)};
   }
   const double enlargement = std::min(std::max(16 * u, 0x1p-48 * scale), 0x1p-40 * scale);
   return Precision{radius + enlargement, std::max(64 * enlargement, 4 * u)};
@@ -73,9 +73,10 @@ Result<Zone> compute_zone(std::shared_ptr<const Network> network, const ZoneOpti
   zone::Rings rings = zone::contract(*instance, std::move(*linked), precision->resolution, counters);
   if (network->has_polygons()) rings = zone::drop_rings_inside_polygons(*network, std::move(rings));
   if (context.cancelled()) return cancelled;
-  const zone::Nesting nesting = zone::nest(*instance, rings, context);
+  const auto nesting = zone::nest(*instance, rings, context);
+  if (!nesting) return nesting.error();
   instance.reset();
-  return ZoneAssembly::assemble(std::move(network), options.radius, std::move(rings), nesting, counters,
+  return ZoneAssembly::assemble(std::move(network), options.radius, std::move(rings), *nesting, counters,
                                 context);
 }
 

@@ -11,6 +11,7 @@ double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
 /// One ring while it is being contracted: a doubly linked list, so that contracting k of n pieces costs O(n + k).
 struct Chain {
   std::vector<Index> element, before, after;
+  std::vector<Index> from, to;  // the elements that a piece's ends were first found on
   std::vector<Point> vertex;
   Index count = 0;
   Index head = 0;
@@ -25,6 +26,12 @@ struct Chain {
     for (Index i = 0; i < count; ++i) {
       before[i] = i == 0 ? count - 1 : i - 1;
       after[i] = i + 1 == count ? 0 : i + 1;
+    }
+    from.resize(count);
+    to.resize(count);
+    for (Index i = 0; i < count; ++i) {
+      from[i] = element[before[i]];
+      to[i] = element[after[i]];
     }
   }
   /// Drops piece i and its first vertex; the piece before it runs on to the one after it.
@@ -89,6 +96,7 @@ class Contraction {
   bool step(Chain& c, Index i) {
     const Index before = c.before[i], after = c.after[i];
     if (c.element[before] == c.element[i]) {  // a full circle's start, or what a contraction left
+      c.to[before] = c.to[i];
       c.erase(i);
       return true;
     }
@@ -104,7 +112,7 @@ class Contraction {
   bool is_long(const Chain& c, Index i) const {
     const Index e = c.element[i];
     if (in_.is_side(e) || in_.sector(in_.vertex_of(e)).before != e) return false;  // at most half a circle
-    return is_long_arc(in_, c.element[c.before[i]], e, c.element[c.after[i]]);
+    return is_long_arc(in_, c.from[i], e, c.to[i]);
   }
 
   const Instance& in_;

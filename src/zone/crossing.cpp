@@ -13,12 +13,13 @@ using kernel::square_root;
 constexpr double well_conditioned = 0x1p-4;
 constexpr double ill_conditioned = 0x1p-20;
 
-/// An offset from a vertex, with its condition.
+/// An offset from a vertex, with its condition. `lever` times the vertices' unseen move bounds what the move may change.
 template <class Real>
 struct Place {
   Index base;
   Vector<Real> offset;
   Real condition;
+  Real lever;
 };
 
 /// A side's frame as in SideElement: u along, y outwards from the offset line.
@@ -35,7 +36,7 @@ struct Frame {
     return {v.x, v.y - radius};
   }
   Place<Real> place(Real at, Real condition) const {
-    return {ends.from, {u.x * at + u.y * radius, u.y * at - u.x * radius}, condition};
+    return {ends.from, {u.x * at + u.y * radius, u.y * at - u.x * radius}, condition, (absolute(at) + radius) / span};
   }
   const Instance& in;
   Instance::Ends ends;
@@ -64,13 +65,17 @@ Place<Real> side_and_side(const Instance& in, Index from, Index to, Real r) {
     Vector<Real> d = f.rotate(in.difference<Real>(other.to, other.from));
     const Real span = length(d);
     const Real t = d.x > 0 ? f.radius * d.y / (span + d.x) : f.radius * (span - d.x) / d.y;
-    return f.place(f.span - t, d.x > 0 ? Real(1) : d.y / span);
+    auto p = f.place(f.span - t, d.x > 0 ? Real(1) : d.y / span);
+    p.lever = std::max(p.lever, f.radius / span);
+    return p;
   }
   const Vector<Real> c = f.locate(other.from);
   const Vector<Real> d = f.rotate(in.difference<Real>(other.to, other.from));
   const Real span = length(d);
   const Real t = -(c.y + f.radius * d.x / span) / d.y;
-  return f.place(c.x + t * d.x - f.radius * d.y / span, absolute(d.y) / span);
+  auto p = f.place(c.x + t * d.x - f.radius * d.y / span, absolute(d.y) / span);
+  p.lever = std::max(p.lever, (absolute(t) * span + f.radius) / span);
+  return p;
 }
 
 template <class Real>
@@ -82,12 +87,12 @@ Place<Real> circle_and_circle(const Instance& in, Index from, Index to, Real r) 
   const Real square = (1 - c) * (1 + c);
   const Real s = square_root(std::max<Real>(square, 0));
   const Vector<Real> u{d.x / span, d.y / span};
-  return {base, {r * (c * u.x + s * u.y), r * (c * u.y - s * u.x)}, square};
+  return {base, {r * (c * u.x + s * u.y), r * (c * u.y - s * u.x)}, square, r / span};
 }
 
 template <class Real>
 Place<Real> place_of(const Instance& in, Index from, Index to, Real r) {
-  if (from == to) return {in.vertex_of(from), {r, Real(0)}, 1};  // where a full circle starts
+  if (from == to) return {in.vertex_of(from), {r, Real(0)}, 1, 0};  // where a full circle starts
   if (in.is_side(from)) {
     return in.is_side(to) ? side_and_side<Real>(in, from, to, r) : side_and_circle<Real>(in, from, to, -1, r);
   }
@@ -99,10 +104,11 @@ Point add(Point base, Vector<double> offset) { return {base.x + offset.x, base.y
 }  // namespace
 
 Point crossing(const Instance& in, Index from, Index to) {
+  const auto unmoved = [&](const Place<double>& p) { return p.lever * 16 * in.jitter() < in.enlargement(); };
   const auto nominal = place_of<double>(in, from, to, in.nominal_radius());
-  if (nominal.condition > well_conditioned) return add(in.vertices()[nominal.base], nominal.offset);
+  if (nominal.condition > well_conditioned && unmoved(nominal)) return add(in.vertices()[nominal.base], nominal.offset);
   const auto p = place_of<double>(in, from, to, in.radius());
-  if (p.condition > ill_conditioned) return add(in.vertices()[p.base], p.offset);
+  if (p.condition > ill_conditioned && unmoved(p)) return add(in.vertices()[p.base], p.offset);
   const auto q = place_of<quad>(in, from, to, in.radius());
   const Vector<quad> base = in.moved(q.base);
   return {double(base.x + q.offset.x), double(base.y + q.offset.y)};

@@ -38,26 +38,41 @@ bool Gaps<Real>::subtract(const Cover<Real>& cover) {
   return open_.empty();
 }
 
+namespace {
+
+/// Whether a boundary element met by the cigar of `site` lies behind another one, `label`, met at the same place as far as the
+/// numbers tell, for reasons of incidence alone: there the two differ by less than any precision can see.
+bool hides(const Instance& in, Index by, Index site, Index label) {
+  if (by == none || label == none || site == none || by == label) return false;
+  if (!in.is_side(label)) {
+    // A cigar contains the disks at its ends, and touches them from outside where it meets the element by its side.
+    const auto s = in.site(site);
+    const Index vertex = in.vertex_of(label);
+    return s.a == vertex || s.b == vertex;
+  }
+  if (!in.is_side(by)) return false;
+  // Two segments folded onto each other at a common vertex: the outer one in the order around the vertex.
+  const auto p = in.ends(by), q = in.ends(label);
+  if (p.from == q.from) return in.turns_left(p.from, p.to, q.to);
+  if (p.to == q.to) return in.turns_left(p.to, q.from, p.from);
+  return false;
+}
+
+}  // namespace
+
 template <class Real>
 Index Gaps<Real>::boundary_label(const Instance& instance, Side side) const {
   const auto& met = side == Side::left ? left_ : right_;
   const auto end = [&](const Cover<Real>* c) -> const CoverEnd<Real>& { return side == Side::left ? c->high : c->low; };
-  // A cigar contains the disks at its ends: where it meets the element by its side, the disk's own end is further in,
-  // however little (it is tangent there). This is decided by incidence, never by comparing parameters.
-  const auto inside_another = [&](const Cover<Real>* c) {
-    const Index label = end(c).label;
-    if (label == none || instance.is_side(label)) return false;
-    const Index vertex = instance.vertex_of(label);
+  const auto hidden = [&](const Cover<Real>* c) {
     return std::any_of(met.begin(), met.end(), [&](const Cover<Real>* o) {
-      if (o->site == none || end(o).label == label || !end(o).label_certain) return false;
-      const auto s = instance.site(o->site);
-      return s.a == vertex || s.b == vertex;
+      return end(o).label_certain && hides(instance, end(o).label, o->site, end(c).label);
     });
   };
   Index found = none;
   for (const Cover<Real>* c : met) {
     if (!end(c).label_certain) return none;
-    if (end(c).label == found || inside_another(c)) continue;
+    if (end(c).label == found || hidden(c)) continue;
     if (found != none || end(c).label == none) return none;
     found = end(c).label;
   }
@@ -106,19 +121,13 @@ void Gaps<Real>::find_by_value(const Instance& instance, std::vector<Piece>& out
   std::sort(order.begin(), order.end(), [](const Cover<Real>* c, const Cover<Real>* d) {
     return c->low.at != d->low.at ? c->low.at < d->low.at : c->low.label < d->low.label;
   });
-  const auto incident = [&](const Cover<Real>* c, Index label) {
-    if (c->site == none || label == none || instance.is_side(label)) return false;
-    const auto s = instance.site(c->site);
-    const Index v = instance.vertex_of(label);
-    return s.a == v || s.b == v;
-  };
   const Cover<Real>* reached = nullptr;
   for (const Cover<Real>* c : order) {
     if (reached != nullptr && c->low.at > reached->high.at && reached->high.label != none && c->low.label != none) {
       out.push_back({element_, reached->high.label, c->low.label});
     }
     if (reached == nullptr || c->high.at > reached->high.at ||
-        (c->high.at == reached->high.at && incident(c, reached->high.label))) {
+        (c->high.at == reached->high.at && hides(instance, c->high.label, c->site, reached->high.label))) {
       reached = c;
     }
   }

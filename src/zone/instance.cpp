@@ -27,7 +27,7 @@ Instance::Instance(const Network& network, double nominal_radius, double radius,
       nominal_radius_(nominal_radius),
       radius_(radius),
       extent_(network.extent()),
-      jitter_(0x1p-68 * network.extent()),
+      jitter_(0x1p-80 * network.extent()),
       sectors_(network.vertices().size(), Sector{none, none}) {
   find_sectors(context);
 }
@@ -39,7 +39,6 @@ Vector<quad> Instance::moved(Index vertex) const {
   return {quad(p.x) + quad(jitter_ * fraction(h)), quad(p.y) + quad(jitter_ * fraction(mix(h + 1)))};
 }
 
-/// Sign of the turn from `at -> from` to `at -> to`: true if counter-clockwise by less than 180 degrees.
 bool Instance::turns_left(Index at, Index from, Index to) const {
   const auto d = difference<double>(from, at), e = difference<double>(to, at);
   const double cross = d.x * e.y - d.y * e.x;

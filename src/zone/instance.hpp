@@ -26,7 +26,7 @@ Real length(Vector<Real> v) {
 
 /// The concrete, non-degenerate instance whose topology is computed (docs/zone.md, "One instance").
 ///
-/// Vertices are the network's, moved by at most jitter() = 2^-68 of the extent in a direction that is a hash of their
+/// Vertices are the network's, moved by at most jitter() = 2^-80 of the extent in a direction that is a hash of their
 /// coordinates; the radius is enlarged by 2^-48 S or 16 units in the last place of the coordinates, whichever is more.
 /// Double precision sees the unmoved vertices and counts the move as an error; quadruple precision sees the moved ones. So every
 /// decision is about the same instance, and decisions taken at different elements cannot contradict each other.
@@ -46,6 +46,7 @@ class Instance {
   double radius() const { return radius_; }
   /// The radius as given, for coordinates where the difference cannot matter.
   double nominal_radius() const { return nominal_radius_; }
+  double enlargement() const { return radius_ - nominal_radius_; }
   double jitter() const { return jitter_; }
   /// Largest absolute coordinate of a vertex.
   double extent() const { return extent_; }
@@ -75,6 +76,9 @@ class Instance {
   };
   Sector sector(Index vertex) const { return sectors_[vertex]; }
 
+  /// True if the direction from `at` to `to` is counter-clockwise of that to `from`, by less than 180 degrees.
+  bool turns_left(Index at, Index from, Index to) const;
+
   /// to - from, in double precision of the unmoved vertices, in quadruple precision of the moved ones.
   template <class Real>
   Vector<Real> difference(Index to, Index from) const {
@@ -96,7 +100,6 @@ class Instance {
  private:
   void find_sectors(const Context& context);
   Sector find_sector(Index vertex, std::span<const Index> outgoing) const;
-  bool turns_left(Index at, Index from, Index to) const;
 
   std::span<const Point> vertices_;
   std::span<const Network::Segment> segments_;

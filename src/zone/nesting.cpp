@@ -43,22 +43,23 @@ class PieceShape {
     return p_.x <= q_.x ? p_ : q_;
   }
 
-  /// The largest x below `limit_x` at height y on the piece; -infinity if there is none. Ends count as hit.
-  double hit_left_of(double limit_x, double y) const {
+  /// The largest x below `limit_x` at height y on the piece; -infinity if there is none. What comes within `slack` of the ray
+  /// counts as hit: no boundary fits in between, so it borders the same face.
+  double hit_left_of(double limit_x, double y, double slack) const {
     double best = -infinity;
     const auto take = [&](double x) {
       if (x < limit_x) best = std::max(best, x);
     };
-    if (p_.y == y) take(p_.x);
-    if (q_.y == y) take(q_.x);
+    if (std::abs(p_.y - y) <= slack) take(p_.x);
+    if (std::abs(q_.y - y) <= slack) take(q_.x);
     if (!arc_) {
       if ((p_.y < y) != (q_.y < y)) take(p_.x + (y - p_.y) / (q_.y - p_.y) * (q_.x - p_.x));
       return best;
     }
     const double dy = y - centre_.y;
     const double square = (radius_ - dy) * (radius_ + dy);
-    if (square < 0) return best;
-    const double half = std::sqrt(square);
+    if (square < -2 * radius_ * slack) return best;
+    const double half = std::sqrt(std::max(square, 0.0));
     for (const double x : {centre_.x - half, centre_.x + half}) {
       if (on_arc({x, y})) take(x);
     }
@@ -94,6 +95,12 @@ class Picture {
   std::vector<Index> ring_of_;
 };
 
+Error hole_in_nothing(Point at) {
+  return {ErrorCode::computation, "the rings could not be nested: a hole lies in no ring",
+          "near x " + std::to_string(at.x) + ", y " + std::to_string(at.y) + " relative to the data's origin",
+          "please report this input"};
+}
+
 bool runs_clockwise(const Instance& in, const Rings& rings, Index r) {
   double area = 0;
   const Index first = rings.begin[r];
@@ -105,10 +112,10 @@ bool runs_clockwise(const Instance& in, const Rings& rings, Index r) {
 
 }  // namespace
 
-Nesting nest(const Instance& in, const Rings& rings, const Context& context) {
+Result<Nesting> nest(const Instance& in, const Rings& rings, const Context& context) {
   const Index count = rings.ring_count();
   Nesting nesting{std::vector<bool>(count), std::vector<Index>(count, none)};
-  if (count == 1) return nesting;
+  
   Context quiet;
   quiet.threads = context.threads;
   const Picture picture(in, rings);
@@ -124,11 +131,15 @@ Nesting nest(const Instance& in, const Rings& rings, const Context& context) {
       }
     }
   });
+  const double slack = 2 * in.enlargement();  // the least distance of opposite boundaries; vertices are that exact
   const std::size_t pieces = rings.element.size();
   std::vector<Box> boxes((pieces + chunk - 1) / chunk);
   kernel::parallel_blocks(quiet, boxes.size(), 1 << 10, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from * chunk; i < std::min(pieces, to * chunk); ++i) {
-      boxes[i / chunk].add(picture.shape(Index(i)).box());
+      Box b = picture.shape(Index(i)).box();
+      b.min_y -= slack;
+      b.max_y += slack;
+      boxes[i / chunk].add(b);
     }
   });
   const kernel::BoxTree tree(std::move(boxes));
@@ -140,7 +151,7 @@ Nesting nest(const Instance& in, const Rings& rings, const Context& context) {
       tree.visit_left_of(leftmost[r], [&] { return best; }, [&](std::size_t box) {
         for (std::size_t e = box * chunk; e < std::min(pieces, (box + 1) * chunk); ++e) {
           if (picture.ring_of(Index(e)) == r) continue;
-          const double x = picture.shape(Index(e)).hit_left_of(leftmost[r].x, leftmost[r].y);
+          const double x = picture.shape(Index(e)).hit_left_of(leftmost[r].x, leftmost[r].y, slack);
           if (x > best) best = x, met[r] = picture.ring_of(Index(e));
         }
       });
@@ -156,6 +167,7 @@ Nesting nest(const Instance& in, const Rings& rings, const Context& context) {
   for (const Index r : order) {
     nesting.is_hole[r] = clockwise[r];
     const Index s = met[r];
+    if (s == none && clockwise[r]) return hole_in_nothing(leftmost[r]);
     if (s == none) continue;
     // Same kind: both border the same face. Different kinds: r lies directly in s.
     nesting.parent[r] = bool(clockwise[s]) == bool(clockwise[r]) ? nesting.parent[s] : s;

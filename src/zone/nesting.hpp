@@ -15,8 +15,9 @@ struct Nesting {
   std::vector<Index> parent;
 };
 
-/// By a ray from each ring's leftmost point to the next ring on its left. O((rings + pieces) log pieces), expected.
-Nesting nest(const Instance& instance, const Rings& rings, const Context& context);
+/// By a ray from each ring's leftmost point to the next ring on its left. ErrorCode::computation if a hole lies in nothing.
+/// O((rings + pieces) log pieces), expected.
+Result<Nesting> nest(const Instance& instance, const Rings& rings, const Context& context);
 
 /// Drops the rings that lie inside a polygon of the network (even-odd rule per feature): their far side is filled. Each ring keeps a
 /// distance of R from all input, so a single point of it decides.
