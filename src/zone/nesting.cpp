@@ -61,7 +61,7 @@ class PieceShape {
     if (square < -2 * radius_ * slack) return best;
     const double half = std::sqrt(std::max(square, 0.0));
     for (const double x : {centre_.x - half, centre_.x + half}) {
-      if (on_arc({x, y})) take(x);
+      if (on_arc({x, y}) || near_chord({x, y}, slack)) take(x);
     }
     return best;
   }
@@ -70,6 +70,13 @@ class PieceShape {
   /// For a point of the circle: is it on the arc from p counter-clockwise to q?
   bool on_arc(Point e) const {
     return p_ == q_ || cross(p_, q_, e) <= 0;  // right of the chord
+  }
+
+  /// A short arc is flatter than the error of its ends.
+  bool near_chord(Point e, double slack) const {
+    const double dx = q_.x - p_.x, dy = q_.y - p_.y, square = dx * dx + dy * dy;
+    const double along = (e.x - p_.x) * dx + (e.y - p_.y) * dy, across = cross(p_, q_, e);
+    return along >= 0 && along <= square && across * across <= slack * slack * square;
   }
 
   Point p_, q_, centre_;
