@@ -130,7 +130,13 @@ class Worker {
   }
 
  private:
-  static constexpr int remembered = 2;
+  static constexpr int remembered = 8;
+  using Recent = std::array<std::array<Index, remembered>, 2>;
+  static Recent no_sites() {
+    Recent r;
+    for (auto& list : r) list.fill(none);
+    return r;
+  }
   static constexpr Index group = 16;  // elements that share a frontier: consecutive ones are neighbours
 
   /// The search of all elements of the group starts from nodes within R of them, that is within 2R of their vertices.
@@ -154,8 +160,11 @@ class Worker {
     return frontier_;
   }
 
+  /// One cigar rarely contains an element that is as long as it is wide.
+  bool worth_containing(const Hull& hull) const { return quick_ && 2 * hull.half_width < in_.radius(); }
+
   bool covered_by_recent(Index element, const Hull& hull) {
-    if (!quick_) return false;
+    if (!worth_containing(hull)) return false;
     auto& recent = recent_[element & 1u];
     for (int i = 0; i < remembered; ++i) {
       if (recent[i] == none || !contains(in_, recent[i], hull)) continue;
@@ -183,8 +192,9 @@ class Worker {
     double open = element.end();
     SiteTree::Region region = region_of(tree_, hull, in_.radius());
     tree_.visit_nearest(frontier(e), region, heap_, [&](Index site) {
+      if (element.is_own(site)) return true;
       ++counters.candidates;
-      if (quick_ && contains(in_, site, hull)) {
+      if (worth_containing(hull) && contains(in_, site, hull)) {
         remember(e, site);
         return !(covered = true);
       }
@@ -232,7 +242,7 @@ class Worker {
   Index group_end_ = 0;
   bool has_frontier_ = false;
   SiteTree::Frontier frontier_;
-  std::array<std::array<Index, remembered>, 2> recent_{{{none, none}, {none, none}}};
+  Recent recent_ = no_sites();  // by the parity of the element: the two sides of a line are far apart
   std::vector<SiteTree::Entry> heap_;
   Gaps<double> gaps_;
   Gaps<quad> precise_gaps_;

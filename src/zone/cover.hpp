@@ -60,6 +60,8 @@ class SideElement {
   Vector<Real> point(Real u) const { return {u_.x * u + u_.y * radius_, u_.y * u - u_.x * radius_}; }
   /// The vertex that point() is relative to.
   Index base() const { return ends_.from; }
+  /// True for sites that cannot cover any of the element, told without arithmetic.
+  bool is_own(Index site) const { return site == element_ >> 1; }
   /// The part covered by the site's cigar.
   Covers<Real> covered_by(Index site) const;
 
@@ -101,6 +103,10 @@ class CircleElement {
     return {(u_.x * x - u_.y * y) * scale, (u_.y * x + u_.x * y) * scale};
   }
   Index base() const { return vertex_; }
+  bool is_own(Index site) const {
+    const auto s = instance_.site(site);
+    return s.a == vertex_ || s.b == vertex_;
+  }
   Covers<Real> covered_by(Index site) const;
 
  private:
