@@ -52,7 +52,7 @@ class Network {
     /// Number of vertices given so far.
     std::size_t vertex_count() const { return points_.size(); }
     /// Validates and indexes. Errors: no vertex at all; a coordinate that is NaN or infinite (named by feature and
-    /// vertex); more than 1.4e9 segments. O(n) but for the sort along the Hilbert curve.
+    /// vertex); more than 2^28 (268 million) vertices. O(n) but for the sort along the Hilbert curve.
     Result<Network> build(const Context& context = {}) &&;
 
    private:

@@ -12,7 +12,7 @@ namespace krepl {
 namespace {
 
 constexpr std::size_t block_size = 1 << 16;
-constexpr std::size_t most_vertices = 1'400'000'000;  // element numbers are 2 * segment and 2 * segments + vertex in 32 bits
+constexpr std::size_t most_vertices = std::size_t{1} << 28;  // what searches pack into one number
 
 struct Box {
   double min_x = std::numeric_limits<double>::infinity(), min_y = min_x;
@@ -117,7 +117,7 @@ Result<Network> Network::Builder::build(const Context& context) && {
   const std::size_t n = points_.size();
   if (n == 0) return Error{ErrorCode::input, "there is no vertex in the input", "", "give at least one point or line"};
   if (n > most_vertices) {
-    return Error{ErrorCode::input, "there are more than 1.4e9 vertices in the input", "", "split the input"};
+    return Error{ErrorCode::input, "there are more than 2^28 vertices in the input", "", "split the input"};
   }
   Network net;
   net.part_begin_ = std::move(part_begin_);

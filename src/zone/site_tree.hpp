@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "krepl/context.hpp"
@@ -11,7 +13,7 @@
 namespace krepl::zone {
 
 /// A packed tree of bounding boxes, eight children a node, over the sites in their (Hilbert) order, in single precision
-/// rounded outwards: 18.3 bytes a site.
+/// rounded outwards: 18.3 bytes a site. At most 2^28 sites.
 class SiteTree {
  public:
   /// Where sites are sought: within `reach` of the centre and within `margin` of the box. Made by region(), which adds
@@ -22,12 +24,9 @@ class SiteTree {
     float min_x, min_y, max_x, max_y;
   };
 
-  struct Entry {
-    float distance;
-    std::uint32_t level;  // 0: a site
-    std::uint32_t index;
-    bool operator<(const Entry& e) const { return distance > e.distance; }  // for a min-heap
-  };
+  /// A node or site to visit, as one number that orders by squared distance (a non-negative float orders like its bits),
+  /// then by level and index: sites are level 0.
+  using Entry = std::uint64_t;
 
   SiteTree(const Instance& instance, const Context& context);
 
@@ -46,6 +45,10 @@ class SiteTree {
 
  private:
   static constexpr int arity = 8;
+  static constexpr unsigned index_bits = 28;
+  static Entry entry(float distance, std::uint32_t level, std::uint32_t index) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(distance)} << 32 | level << index_bits | index;
+  }
   struct Node {
     float min_x[arity], min_y[arity], max_x[arity], max_y[arity];
   };
@@ -77,22 +80,23 @@ void SiteTree::visit_nearest(const Frontier& frontier, const Region& region, std
     for (unsigned bits = meeting(frontier.boxes_[n], region, distance); bits != 0; bits &= bits - 1) {
       const int k = __builtin_ctz(bits);
       const auto m = frontier.members_[n * arity + k];
-      heap.push_back({distance[k], m.level, m.index});
+      heap.push_back(entry(distance[k], m.level, m.index));
     }
   }
-  std::make_heap(heap.begin(), heap.end());
+  std::make_heap(heap.begin(), heap.end(), std::greater<>{});
   while (!heap.empty()) {
-    std::pop_heap(heap.begin(), heap.end());
+    std::pop_heap(heap.begin(), heap.end(), std::greater<>{});
     const Entry e = heap.back();
     heap.pop_back();
-    if (e.level == 0) {
-      if (!visit(e.index)) return;
+    const std::uint32_t level = std::uint32_t(e) >> index_bits, index = std::uint32_t(e) & ((1u << index_bits) - 1);
+    if (level == 0) {
+      if (!visit(index)) return;
       continue;
     }
-    for (unsigned bits = meeting(levels_[e.level - 1][e.index], region, distance); bits != 0; bits &= bits - 1) {
+    for (unsigned bits = meeting(levels_[level - 1][index], region, distance); bits != 0; bits &= bits - 1) {
       const int k = __builtin_ctz(bits);
-      heap.push_back({distance[k], e.level - 1, e.index * arity + std::uint32_t(k)});
-      std::push_heap(heap.begin(), heap.end());
+      heap.push_back(entry(distance[k], level - 1, index * arity + std::uint32_t(k)));
+      std::push_heap(heap.begin(), heap.end(), std::greater<>{});
     }
   }
 }

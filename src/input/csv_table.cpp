@@ -1,0 +1,141 @@
+#include "input/csv_table.hpp"
+
+#include <cpl_vsi.h>
+
+#include <charconv>
+#include <cmath>
+#include <memory>
+
+#include "input/geometry_source.hpp"
+#include "ogr/message_capture.hpp"
+
+namespace krepl::input {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string lower(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  return result;
+}
+
+Result<std::vector<char>> read_all(const std::string& path) {
+  std::string source = "/vsistdin/";
+  if (path != "-") {
+    Result<std::string> checked = checked_path(path);
+    if (!checked) return checked.error();
+    source = *checked;
+  }
+  ogr::initialise();
+  ogr::MessageCapture messages;
+  const std::unique_ptr<VSILFILE, int (*)(VSILFILE*)> file(VSIFOpenL(source.c_str(), "rb"), VSIFCloseL);
+  if (!file) return messages.error(ErrorCode::io, "cannot be read");
+  std::vector<char> text;
+  constexpr std::size_t portion = std::size_t{1} << 20;
+  for (std::size_t got = portion; got == portion;) {
+    const std::size_t before = text.size();
+    text.resize(before + portion);
+    got = VSIFReadL(text.data() + before, 1, portion, file.get());
+    text.resize(before + got);
+  }
+  if (messages.failed()) return messages.error(ErrorCode::io, "cannot be read to its end");
+  return text;
+}
+
+}  // namespace
+
+Result<CsvTable> CsvTable::open(const std::string& path) {
+  Result<std::vector<char>> text = read_all(path);
+  if (!text) return text.error();
+  CsvTable table;
+  table.text_ = std::move(*text);
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (std::string_view(table.text_.data(), table.text_.size()).starts_with(byte_order_mark)) table.position_ = 3;
+  std::string_view line;
+  if (!table.next_line(line)) return Error{ErrorCode::input, "is empty", "", "give a header line and rows"};
+  for (const char separator : {',', ';', '\t'}) {
+    table.separator_ = separator;
+    if (line.find(separator) != std::string_view::npos) break;
+  }
+  std::vector<std::string_view> names;
+  table.split(line, names);
+  for (std::string_view name : names) {
+    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+    table.header_.push_back(lower(name));
+  }
+  return table;
+}
+
+Result<std::size_t> CsvTable::column(std::string_view name) const {
+  std::string all;
+  for (std::size_t i = 0; i < header_.size(); ++i) {
+    if (header_[i] == name) return i;
+    all += (i == 0 ? "" : ", ") + header_[i];
+  }
+  return Error{ErrorCode::input, "has no column '" + std::string(name) + "'", "line " + std::to_string(line_),
+               "name it in the header; there are: " + all};
+}
+
+bool CsvTable::next() {
+  std::string_view line;
+  if (!next_line(line)) return false;
+  split(line, fields_);
+  return true;
+}
+
+bool CsvTable::next_line(std::string_view& line) {
+  const std::string_view text(text_.data(), text_.size());
+  while (position_ < text.size()) {
+    const std::size_t end = std::min(text.find('\n', position_), text.size());
+    line = trimmed(text.substr(position_, end - position_));
+    position_ = end + 1;
+    ++line_;
+    if (!line.empty() && line.front() != '#') return true;
+  }
+  return false;
+}
+
+void CsvTable::split(std::string_view line, std::vector<std::string_view>& fields) const {
+  fields.clear();
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(separator_, begin), line.size());
+    fields.push_back(trimmed(line.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+}
+
+std::string_view CsvTable::field(std::size_t column) const {
+  return column < fields_.size() ? fields_[column] : std::string_view{};
+}
+
+Error CsvTable::field_error(std::size_t column, const std::string& what) const {
+  return {ErrorCode::input, header_[column] + " " + what, place(), "correct or remove the line"};
+}
+
+Result<double> CsvTable::number(std::size_t column) const {
+  std::string_view text = field(column);
+  if (text.empty()) return field_error(column, "is missing");
+  const std::string shown = "'" + std::string(text.substr(0, 40)) + "'";
+  if (text.front() == '+') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size()) return field_error(column, shown + " is not a number");
+  if (status == std::errc::result_out_of_range) return field_error(column, shown + " is out of the range of numbers");
+  if (status != std::errc{}) return field_error(column, shown + " is not a number");
+  return value;
+}
+
+Result<double> CsvTable::finite(std::size_t column) const {
+  Result<double> value = number(column);
+  if (value && !std::isfinite(*value)) return field_error(column, "is not finite");
+  return value;
+}
+
+}  // namespace krepl::input

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "krepl/context.hpp"
+#include "krepl/error.hpp"
+#include "krepl/network.hpp"
+
+namespace krepl::input {
+
+struct NetworkRequest {
+  std::string path;    ///< any OGR vector source, .wkt, .wkb, these compressed with gzip, or `-`
+  std::string layer;   ///< needed where the file has more than one
+  std::string where;   ///< OGR's SQL WHERE clause
+  std::string crs;     ///< coordinate system of the data, in place of what the file says (or does not say)
+  std::string to_crs;  ///< plane coordinate system to project to; `auto` chooses one around the data
+};
+
+struct NetworkData {
+  std::shared_ptr<const Network> network;
+  std::string crs;                 ///< WKT 2 of the network's coordinates; empty: a plane of unknown place
+  std::vector<std::string> notes;  ///< what the user should know: projection chosen, heights ignored, features left out
+  std::size_t features = 0;        ///< features with geometry
+};
+
+/// Reads lines, rings and points into a Network. Feature numbers are OGR's feature ids, for WKT the line numbers.
+///
+/// Z and M are left out (noted). Errors: what open_geometry_source reports; no feature left; a coordinate that is NaN or
+/// infinite; arcs (they are not linearised silently), surfaces in space; degrees without `to_crs`; a place that the
+/// projection does not reach. Each names the feature or line.
+Result<NetworkData> read_network(const NetworkRequest& request, const Context& context = {});
+
+}  // namespace krepl::input

@@ -1,0 +1,82 @@
+#include "output/ogr_geometry.hpp"
+
+#include "output/zone_curves.hpp"
+
+namespace krepl::output {
+
+namespace {
+
+static_assert(sizeof(OGRRawPoint) == sizeof(Point), "points are handed to OGR in bulk");
+
+template <class Curve>
+std::unique_ptr<Curve> simple_curve(const std::vector<Point>& points) {
+  auto curve = std::make_unique<Curve>();
+  std::vector<OGRRawPoint> raw;
+  raw.reserve(points.size());
+  for (const Point& p : points) raw.emplace_back(p.x, p.y);
+  curve->setPoints(static_cast<int>(raw.size()), raw.data());
+  return curve;
+}
+
+std::unique_ptr<OGRCurve> run_curve(const CurveRun& run) {
+  if (run.arc) return simple_curve<OGRCircularString>(run.points);
+  return simple_curve<OGRLineString>(run.points);
+}
+
+std::unique_ptr<OGRCurve> ring_curve(const Zone& zone, std::uint32_t ring) {
+  std::vector<CurveRun> runs = ring_runs(zone, ring);
+  if (runs.size() == 1) return run_curve(runs.front());
+  auto compound = std::make_unique<OGRCompoundCurve>();
+  for (const CurveRun& run : runs) compound->addCurveDirectly(run_curve(run).release());
+  return compound;
+}
+
+std::unique_ptr<OGRCurvePolygon> curve_polygon(const Zone& zone, std::uint32_t p) {
+  auto result = std::make_unique<OGRCurvePolygon>();
+  Zone::Polygon polygon = zone.polygon(p);
+  result->addRingDirectly(ring_curve(zone, polygon.outer).release());
+  for (std::uint32_t hole : polygon.holes) result->addRingDirectly(ring_curve(zone, hole).release());
+  return result;
+}
+
+std::unique_ptr<OGRPolygon> linear_polygon(const Zone& zone, std::uint32_t p, Linearizer& linearizer) {
+  auto result = std::make_unique<OGRPolygon>();
+  Zone::Polygon polygon = zone.polygon(p);
+  result->addRingDirectly(simple_curve<OGRLinearRing>(linearizer.ring(zone, polygon.outer)).release());
+  for (std::uint32_t hole : polygon.holes) {
+    result->addRingDirectly(simple_curve<OGRLinearRing>(linearizer.ring(zone, hole)).release());
+  }
+  return result;
+}
+
+}  // namespace
+
+std::unique_ptr<OGRCompoundCurve> piece_geometry(const Zone& zone, std::uint32_t piece) {
+  Zone::Piece p = zone.piece(piece);
+  CurveRun run{p.kind == Zone::Kind::arc && !is_negligible(p), {p.start, p.end}};
+  if (run.arc) run.points = arc_points(p, zone.radius());
+  auto compound = std::make_unique<OGRCompoundCurve>();
+  compound->addCurveDirectly(run_curve(run).release());
+  return compound;
+}
+
+std::unique_ptr<OGRGeometry> curve_geometry(const Zone& zone, const ZoneFeature& feature, bool single) {
+  if (single) return curve_polygon(zone, feature.first_polygon);
+  auto surface = std::make_unique<OGRMultiSurface>();
+  for (std::uint32_t i = 0; i < feature.polygon_count; ++i) {
+    surface->addGeometryDirectly(curve_polygon(zone, feature.first_polygon + i).release());
+  }
+  return surface;
+}
+
+std::unique_ptr<OGRGeometry> linear_geometry(const Zone& zone, const ZoneFeature& feature, bool single,
+                                             Linearizer& linearizer) {
+  if (single) return linear_polygon(zone, feature.first_polygon, linearizer);
+  auto surface = std::make_unique<OGRMultiPolygon>();
+  for (std::uint32_t i = 0; i < feature.polygon_count; ++i) {
+    surface->addGeometryDirectly(linear_polygon(zone, feature.first_polygon + i, linearizer).release());
+  }
+  return surface;
+}
+
+}  // namespace krepl::output

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <ogr_geometry.h>
+
+#include <memory>
+
+#include "output/linear.hpp"
+#include "output/zone_writers.hpp"
+
+namespace krepl::output {
+
+/// The piece as a COMPOUNDCURVE, so that all pieces of a layer are of one type.
+std::unique_ptr<OGRCompoundCurve> piece_geometry(const Zone& zone, std::uint32_t piece);
+
+/// A feature's polygons with true curves: a MULTISURFACE, or a CURVEPOLYGON if `single` (precondition: it has one polygon).
+std::unique_ptr<OGRGeometry> curve_geometry(const Zone& zone, const ZoneFeature& feature, bool single);
+
+/// The same with chords: MULTIPOLYGON or POLYGON.
+std::unique_ptr<OGRGeometry> linear_geometry(const Zone& zone, const ZoneFeature& feature, bool single,
+                                             Linearizer& linearizer);
+
+}  // namespace krepl::output

@@ -1,0 +1,280 @@
+// Formats written by OGR drivers: GeoPackage and FlatGeobuf with true curves, Shapefile and the rest with chords.
+#include <cpl_conv.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+
+#include "ogr/message_capture.hpp"
+#include "output/atomic_file.hpp"
+#include "output/ogr_geometry.hpp"
+#include "output/zone_writers.hpp"
+
+namespace krepl::output {
+
+namespace {
+
+using Dataset = std::unique_ptr<GDALDataset>;
+
+class ScopedOption {
+ public:
+  ScopedOption(const char* name, const std::string& value) : name_(name) {
+    CPLSetThreadLocalConfigOption(name, value.c_str());
+  }
+  ~ScopedOption() { CPLSetThreadLocalConfigOption(name_, nullptr); }
+  ScopedOption(const ScopedOption&) = delete;
+  ScopedOption& operator=(const ScopedOption&) = delete;
+
+ private:
+  const char* name_;
+};
+
+/// The date that goes into files that want one. The same input must give the same bytes, so it is not today's: it is
+/// SOURCE_DATE_EPOCH where that is set, else the beginning of 1970.
+std::string date(const char* pattern) {
+  const char* epoch = std::getenv("SOURCE_DATE_EPOCH");
+  std::time_t seconds = epoch != nullptr ? static_cast<std::time_t>(std::strtoll(epoch, nullptr, 10)) : 0;
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  char text[64];
+  std::strftime(text, sizeof text, pattern, &utc);
+  return text;
+}
+
+/// Number of coordinates in a geometry: what is compared after reading a file back.
+std::size_t coordinate_count(const OGRGeometry& geometry) {
+  OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+  std::size_t count = 0;
+  if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
+    for (const OGRGeometry* member : *geometry.toGeometryCollection()) count += coordinate_count(*member);
+  } else if (OGR_GT_IsSubClassOf(type, wkbCurvePolygon)) {
+    for (const OGRCurve* ring : *geometry.toCurvePolygon()) count += static_cast<std::size_t>(ring->getNumPoints());
+  }
+  return count;
+}
+
+class OgrWriter {
+ public:
+  OgrWriter(const std::string& driver, const ZoneFileOptions& options, const Context& context)
+      : driver_(driver), options_(options), context_(context) {}
+
+  Status write(const std::string& path, std::span<const Zone> zones);
+  const ZoneFileReport& report() const { return report_; }
+
+ private:
+  Status create(const std::string& path);
+  Result<OGRLayer*> create_layer(const char* name, OGRwkbGeometryType type);
+  Status add_fields(OGRLayer& layer, std::initializer_list<std::pair<const char*, OGRFieldType>> fields);
+  Status write_zone_layer(std::span<const Zone> zones);
+  Status write_zone(OGRLayer& layer, const Zone& zone, bool curves);
+  Status write_pieces(std::span<const Zone> zones);
+  Status add_piece(OGRLayer& layer, const Zone& zone, std::uint32_t piece);
+  Status add_feature(OGRLayer& layer, OGRFeature& feature);
+  Status close(bool transaction);
+  Status read_back(const std::string& path);
+  Error failure(const std::string& what) const { return messages_.error(ErrorCode::io, what, "", remedy()); }
+  std::string remedy() const;
+
+  const std::string& driver_;
+  const ZoneFileOptions& options_;
+  const Context& context_;
+  ogr::MessageCapture messages_;
+  OGRSpatialReference crs_;
+  Dataset dataset_;
+  ZoneFileReport report_;
+  std::size_t features_ = 0, coordinates_ = 0;
+};
+
+std::string OgrWriter::remedy() const {
+  return "free some space, or choose another place or format";
+}
+
+Status OgrWriter::create(const std::string& path) {
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_.c_str());
+  if (driver == nullptr) return failure("GDAL has no driver " + driver_);
+  dataset_.reset(driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  if (!dataset_) return failure("cannot be written");
+  if (options_.crs.empty()) {
+    // GeoPackage would otherwise record "undefined geographic", and krepl's coordinates are plane.
+    if (driver_ == "GPKG") crs_.SetLocalCS("Undefined Cartesian SRS");
+  } else {
+    crs_.importFromWkt(options_.crs.c_str());
+    crs_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  }
+  return std::monostate{};
+}
+
+Result<OGRLayer*> OgrWriter::create_layer(const char* name, OGRwkbGeometryType type) {
+  std::vector<std::string> wanted;
+  if (driver_ == "ESRI Shapefile") wanted = {"DBF_DATE_LAST_UPDATE=" + date("%Y-%m-%d")};
+  // Its index would reorder the features; with a feature per radius there is nothing to search.
+  if (driver_ == "FlatGeobuf" && !options_.separate) wanted = {"SPATIAL_INDEX=NO"};
+  std::vector<char*> list;
+  for (std::string& option : wanted) list.push_back(option.data());
+  list.push_back(nullptr);
+  OGRLayer* layer = dataset_->CreateLayer(name, crs_.IsEmpty() ? nullptr : &crs_, type, list.data());
+  if (layer == nullptr) return failure("cannot be written");
+  return layer;
+}
+
+Status OgrWriter::add_fields(OGRLayer& layer, std::initializer_list<std::pair<const char*, OGRFieldType>> fields) {
+  for (const auto& [name, type] : fields) {
+    OGRFieldDefn field(name, type);
+    if (layer.CreateField(&field) != OGRERR_NONE) return failure(std::string("field ") + name + " cannot be written");
+  }
+  return std::monostate{};
+}
+
+Status OgrWriter::add_feature(OGRLayer& layer, OGRFeature& feature) {
+  messages_.clear();
+  if (layer.CreateFeature(&feature) != OGRERR_NONE || messages_.failed()) return failure("cannot be written");
+  return std::monostate{};
+}
+
+Status OgrWriter::write_zone(OGRLayer& layer, const Zone& zone, bool curves) {
+  Linearizer linearizer(zone.radius(), max_error_for(options_, zone.radius()));
+  for (const ZoneFeature& from : zone_features(zone, options_.separate)) {
+    if (context_.cancelled()) return interrupted_while_writing();
+    OGRFeature feature(layer.GetLayerDefn());
+    feature.SetField("radius", from.radius);
+    feature.SetField("area", from.area);
+    feature.SetField("perimeter", from.perimeter);
+    feature.SetField("polygons", static_cast<int>(from.polygon_count));
+    feature.SetField("holes", static_cast<int>(from.holes));
+    auto geometry = curves ? curve_geometry(zone, from, options_.separate)
+                           : linear_geometry(zone, from, options_.separate, linearizer);
+    ++features_;
+    coordinates_ += coordinate_count(*geometry);
+    feature.SetGeometryDirectly(geometry.release());
+    if (Status added = add_feature(layer, feature); !added) return added;
+  }
+  if (!curves) report_.deviation = std::max(report_.deviation.value_or(0), linearizer.deviation());
+  return std::monostate{};
+}
+
+Status OgrWriter::write_zone_layer(std::span<const Zone> zones) {
+  bool curves = dataset_->TestCapability(ODsCCurveGeometries);
+  OGRwkbGeometryType type = curves ? (options_.separate ? wkbCurvePolygon : wkbMultiSurface)
+                                   : (options_.separate ? wkbPolygon : wkbMultiPolygon);
+  Result<OGRLayer*> layer = create_layer("zone", type);
+  if (!layer) return layer.error();
+  Status fields = add_fields(**layer, {{"radius", OFTReal}, {"area", OFTReal}, {"perimeter", OFTReal},
+                                       {"polygons", OFTInteger}, {"holes", OFTInteger}});
+  if (!fields) return fields;
+  for (const Zone& zone : zones) {
+    if (Status written = write_zone(**layer, zone, curves); !written) return written;
+  }
+  return std::monostate{};
+}
+
+Status OgrWriter::add_piece(OGRLayer& layer, const Zone& zone, std::uint32_t piece) {
+  Zone::Piece from = zone.piece(piece);
+  bool arc = from.kind == Zone::Kind::arc;
+  Network::Source source = arc ? zone.network().vertex_source(from.source) : zone.network().segment_source(from.source);
+  OGRFeature feature(layer.GetLayerDefn());
+  feature.SetField("radius", zone.radius());
+  feature.SetField("kind", arc ? "arc" : "segment");
+  feature.SetField("source_feature", static_cast<GIntBig>(source.feature));
+  feature.SetField("source_part", static_cast<GIntBig>(source.part));
+  feature.SetField("source_vertex", static_cast<GIntBig>(source.vertex));
+  feature.SetField("length", piece_length(from, zone.radius()));
+  feature.SetGeometryDirectly(piece_geometry(zone, piece).release());
+  return add_feature(layer, feature);
+}
+
+Status OgrWriter::write_pieces(std::span<const Zone> zones) {
+  Result<OGRLayer*> layer = create_layer("pieces", wkbCompoundCurve);
+  if (!layer) return layer.error();
+  Status fields = add_fields(**layer, {{"radius", OFTReal}, {"kind", OFTString}, {"source_feature", OFTInteger64},
+                                       {"source_part", OFTInteger64}, {"source_vertex", OFTInteger64},
+                                       {"length", OFTReal}});
+  if (!fields) return fields;
+  std::size_t total = 0, done = 0;
+  for (const Zone& zone : zones) total += zone.piece_count();
+  for (const Zone& zone : zones) {
+    for (std::uint32_t e = 0; e < zone.piece_count(); ++e, ++done) {
+      if (context_.cancelled()) return interrupted_while_writing();
+      if (context_.progress && done % 1024 == 0) context_.progress(static_cast<double>(done) / static_cast<double>(total));
+      if (Status added = add_piece(**layer, zone, e); !added) return added;
+    }
+  }
+  return std::monostate{};
+}
+
+Status OgrWriter::close(bool transaction) {
+  messages_.clear();
+  if (transaction && dataset_->CommitTransaction() != OGRERR_NONE) return failure("cannot be written");
+  dataset_->FlushCache(true);
+  dataset_.reset();
+  if (messages_.failed()) return failure("cannot be written");
+  return std::monostate{};
+}
+
+Status OgrWriter::read_back(const std::string& path) {
+  messages_.clear();
+  Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  if (!dataset || dataset->GetLayerCount() == 0) return failure("cannot be read back after writing");
+  std::size_t features = 0, coordinates = 0;
+  for (const auto& feature : *dataset->GetLayer(0)) {
+    if (context_.cancelled()) return interrupted_while_writing();
+    ++features;
+    if (const OGRGeometry* geometry = feature->GetGeometryRef()) coordinates += coordinate_count(*geometry);
+  }
+  if (messages_.failed() || features != features_ || coordinates != coordinates_) {
+    return failure("is not complete after writing");
+  }
+  return std::monostate{};
+}
+
+Status OgrWriter::write(const std::string& path, std::span<const Zone> zones) {
+  ScopedOption fixed_date("OGR_CURRENT_DATE", date("%Y-%m-%dT%H:%M:%S.000Z"));
+  // AtomicFile flushes the finished file once; until then it is nobody's.
+  ScopedOption lazy("OGR_SQLITE_SYNCHRONOUS", "OFF");
+  if (Status created = create(path); !created) return created;
+  bool transaction = dataset_->TestCapability(ODsCTransactions) && dataset_->StartTransaction() == OGRERR_NONE;
+  if (Status written = write_zone_layer(zones); !written) return written;
+  if (driver_ == "GPKG" && options_.pieces) {
+    if (Status written = write_pieces(zones); !written) return written;
+  }
+  if (Status closed = close(transaction); !closed) return closed;
+  // SQLite tells of every failed write. Other drivers do not always.
+  return driver_ == "GPKG" ? Status(std::monostate{}) : read_back(path);
+}
+
+/// What an old Shapefile has beside it and a new one has not: an index of other shapes, a coordinate system.
+std::vector<std::filesystem::path> stale_side_files(const std::string& path, const std::string& driver,
+                                                    const std::filesystem::path& temporary) {
+  std::vector<std::filesystem::path> stale;
+  if (driver != "ESRI Shapefile") return stale;
+  for (const char* extension : {".qix", ".sbn", ".sbx", ".cpg", ".prj"}) {
+    if (std::filesystem::exists(std::filesystem::path(temporary).replace_extension(extension))) continue;
+    stale.push_back(std::filesystem::path(path).replace_extension(extension));
+  }
+  return stale;
+}
+
+}  // namespace
+
+WriteResult write_ogr(const std::string& path, const std::string& driver, std::span<const Zone> zones,
+                      const ZoneFileOptions& options, const Context& context) {
+  ogr::initialise();
+  Result<AtomicFile> file = AtomicFile::create(path);
+  if (!file) return file.error();
+  ZoneFileReport report;
+  {
+    OgrWriter writer(driver, options, context);
+    if (Status written = writer.write(file->temporary_path(), zones); !written) return written.error();
+    report = writer.report();
+  }
+  auto stale = stale_side_files(path, driver, file->temporary_path());
+  if (Status committed = file->commit(); !committed) return committed.error();
+  for (const std::filesystem::path& side_file : stale) {
+    std::error_code ignored;
+    std::filesystem::remove(side_file, ignored);
+  }
+  return report;
+}
+
+}  // namespace krepl::output

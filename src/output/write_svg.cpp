@@ -1,0 +1,151 @@
+// SVG: the zones as paths of lines and true arcs, the network they belong to above them.
+//
+// Coordinates are relative to the network's origin (viewers compute in single precision) and y points down:
+// x_svg = x - origin_x, y_svg = origin_y - y; the root element's data-origin tells the origin.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <numbers>
+
+#include "output/output_stream.hpp"
+#include "output/zone_writers.hpp"
+
+namespace krepl::output {
+
+namespace {
+
+// The centre of an SVG arc follows from its ends and radius, which is ill-conditioned near half a turn; up to a third of a
+// turn rounding is not amplified.
+constexpr double largest_arc = 2 * std::numbers::pi / 3;
+
+class SvgText {
+ public:
+  explicit SvgText(Point origin) : origin_(origin) {}
+
+  void put(std::string_view s) { text_.append(s.data(), s.data() + s.size()); }
+  void put_absolute(char command, Point p) { put_relative(command, {p.x - origin_.x, p.y - origin_.y}); }
+  /// `p` relative to the origin, y upwards. Adding zero turns -0 into 0.
+  void put_relative(char command, Point p) {
+    fmt::format_to(std::back_inserter(text_), "{}{} {}", command, p.x, 0.0 - p.y);
+  }
+  void put_arc(double radius, Point end) {
+    // Counter-clockwise with y upwards is against the direction of increasing angles with y downwards: sweep flag 0.
+    fmt::format_to(std::back_inserter(text_), "A{0} {0} 0 0 0 {1} {2}", radius, end.x - origin_.x,
+                   0.0 - (end.y - origin_.y));
+  }
+  template <class... T>
+  void format(fmt::format_string<T...> pattern, T&&... values) {
+    fmt::format_to(std::back_inserter(text_), pattern, std::forward<T>(values)...);
+  }
+  void flush(OutputStream& stream) {
+    stream.write({text_.data(), text_.size()});
+    text_.clear();
+  }
+
+ private:
+  Point origin_;
+  fmt::memory_buffer text_;
+};
+
+void put_ring(SvgText& text, const Zone& zone, std::uint32_t ring) {
+  text.put_absolute('M', zone.piece(zone.ring_begin(ring)).start);
+  for (std::uint32_t e = zone.ring_begin(ring); e < zone.ring_begin(ring + 1); ++e) {
+    Zone::Piece piece = zone.piece(e);
+    if (piece.kind != Zone::Kind::arc || is_negligible(piece)) {
+      text.put_absolute('L', piece.end);
+      continue;
+    }
+    std::vector<Point> ends = arc_ends(piece, zone.radius(), largest_arc);
+    for (std::size_t i = 1; i < ends.size(); ++i) text.put_arc(zone.radius(), ends[i]);
+  }
+  text.put("Z");
+}
+
+Status put_zone(SvgText& text, OutputStream& stream, const Zone& zone, const Context& context) {
+  text.format("<g class=\"zone\" data-radius=\"{}\" data-area=\"{}\">\n", zone.radius(), zone.area());
+  for (std::uint32_t p = 0; p < zone.polygon_count(); ++p) {
+    if (context.cancelled()) return interrupted_while_writing();
+    Zone::Polygon polygon = zone.polygon(p);
+    text.put("<path d=\"");
+    put_ring(text, zone, polygon.outer);
+    for (std::uint32_t hole : polygon.holes) put_ring(text, zone, hole);
+    text.put("\"/>\n");
+    text.flush(stream);
+  }
+  text.put("</g>\n");
+  return std::monostate{};
+}
+
+Status put_network(SvgText& text, OutputStream& stream, const Network& network, const Context& context) {
+  text.put("<g class=\"input\">\n");
+  for (std::uint32_t part = 0; part < network.part_count(); ++part) {
+    if (context.cancelled()) return interrupted_while_writing();
+    text.put("<path d=\"");
+    std::span<const std::uint32_t> chain = network.part(part);
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      text.put_relative(i == 0 ? 'M' : 'L', network.vertices()[chain[i]]);
+    }
+    // A stroke of no length with round caps shows as a dot.
+    text.put(chain.size() == 1 ? "h0" : network.part_is_ring(part) ? "Z" : "");
+    text.put("\"/>\n");
+    text.flush(stream);
+  }
+  text.put("</g>\n");
+  return std::monostate{};
+}
+
+/// Largest extent of the network from its origin in each direction, grown by the largest radius: the zones' own box.
+struct Box {
+  double west = 0, south = 0, east = 0, north = 0;
+};
+Box box_of(const Network& network, double radius) {
+  Point first = network.vertices().front();
+  Box box{first.x, first.y, first.x, first.y};
+  for (const Point& v : network.vertices()) {
+    box = {std::min(box.west, v.x), std::min(box.south, v.y), std::max(box.east, v.x), std::max(box.north, v.y)};
+  }
+  return {box.west - radius, box.south - radius, box.east + radius, box.north + radius};
+}
+
+void put_head(SvgText& text, const Network& network, double largest_radius) {
+  Box box = box_of(network, largest_radius);
+  double width = box.east - box.west, height = box.north - box.south, margin = 0.02 * std::max(width, height);
+  width += 2 * margin;
+  height += 2 * margin;
+  double scale = 1000 / std::max(width, height);
+  text.put("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+  text.format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{} {} {} {}\" "
+              "data-origin=\"{} {}\">\n",
+              std::max(1.0, width * scale), std::max(1.0, height * scale), box.west - margin, 0.0 - box.north - margin,
+              width, height, network.origin().x, network.origin().y);
+  text.put("<style>path{vector-effect:non-scaling-stroke;stroke-linejoin:round;stroke-linecap:round}"
+           ".zone path{fill:#3b82c4;fill-opacity:.3;fill-rule:evenodd;stroke:#1d4e7e;stroke-width:1}"
+           ".input path{fill:none;stroke:#b3261e;stroke-width:1}</style>\n");
+}
+
+}  // namespace
+
+WriteResult write_svg(const std::string& path, std::span<const Zone> zones, const ZoneFileOptions&,
+                      const Context& context) {
+  Result<OutputStream> stream = OutputStream::open(path);
+  if (!stream) return stream.error();
+  // The widest first, so that it does not cover the others.
+  std::vector<const Zone*> order;
+  for (const Zone& zone : zones) order.push_back(&zone);
+  std::stable_sort(order.begin(), order.end(), [](const Zone* a, const Zone* b) { return a->radius() > b->radius(); });
+
+  const Network& network = order.front()->network();
+  SvgText text(network.origin());
+  put_head(text, network, order.front()->radius());
+  for (const Zone* zone : order) {
+    if (Status put = put_zone(text, *stream, *zone, context); !put) return put.error();
+  }
+  if (Status put = put_network(text, *stream, network, context); !put) return put.error();
+  text.put("</svg>\n");
+  text.flush(*stream);
+  if (Status finished = stream->finish(); !finished) return finished.error();
+  return ZoneFileReport{};
+}
+
+}  // namespace krepl::output

@@ -1,0 +1,128 @@
+#include "output/zone_curves.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace krepl::output {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Point minus(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+
+/// The point at distance radius from center in direction d, which need not be a unit vector.
+Point towards(Point center, double radius, Point d) {
+  double scale = radius / std::hypot(d.x, d.y);
+  return {center.x + scale * d.x, center.y + scale * d.y};
+}
+
+/// A full circle's quarter points from `start` on, counter-clockwise, closed.
+std::vector<Point> circle_points(const Zone::Piece& circle) {
+  Point u = minus(circle.start, circle.center);
+  Point c = circle.center;
+  return {circle.start, {c.x - u.y, c.y + u.x}, {c.x - u.x, c.y - u.y}, {c.x + u.y, c.y - u.x}, circle.start};
+}
+
+void halve(std::vector<Point>& ends, Point center, double radius) {
+  std::vector<Point> finer;
+  finer.reserve(2 * ends.size());
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    finer.push_back(ends[i]);
+    finer.push_back(arc_middle(center, radius, ends[i], ends[i + 1]));
+  }
+  finer.push_back(ends.back());
+  ends = std::move(finer);
+}
+
+}  // namespace
+
+double arc_angle(const Zone::Piece& arc) {
+  if (arc.start == arc.end) return 2 * pi;
+  Point u = minus(arc.start, arc.center), v = minus(arc.end, arc.center);
+  double angle = std::atan2(cross(u, v), dot(u, v));
+  if (angle > 0) return angle;
+  // A tiny arc whose ends are rounded may seem to run backwards; the chord then tells it from nearly a full turn.
+  return is_negligible(arc) ? 0 : angle + 2 * pi;
+}
+
+Point arc_middle(Point center, double radius, Point start, Point end) {
+  Point u = minus(start, center), v = minus(end, center);
+  if (dot(u, v) <= 0) {  // between a quarter and three quarters: the chord is long, its normal is exact enough
+    Point chord = minus(end, start);
+    return towards(center, radius, {chord.y, -chord.x});
+  }
+  Point sum{u.x + v.x, u.y + v.y};
+  if (cross(u, v) < 0) sum = {-sum.x, -sum.y};
+  return towards(center, radius, sum);
+}
+
+bool is_negligible(const Zone::Piece& arc) {
+  if (arc.start == arc.end) return false;
+  double size = std::max(std::fabs(arc.start.x), std::fabs(arc.start.y));
+  Point chord = minus(arc.end, arc.start);
+  return std::max(std::fabs(chord.x), std::fabs(chord.y)) <= 8 * std::numeric_limits<double>::epsilon() * size;
+}
+
+std::vector<Point> arc_points(const Zone::Piece& arc, double radius) {
+  if (arc.start == arc.end) return circle_points(arc);
+  Point middle = arc_middle(arc.center, radius, arc.start, arc.end);
+  Point u = minus(arc.start, arc.center), v = minus(arc.end, arc.center);
+  if (cross(u, v) >= 0) return {arc.start, middle, arc.end};
+  return {arc.start, arc_middle(arc.center, radius, arc.start, middle), middle,
+          arc_middle(arc.center, radius, middle, arc.end), arc.end};
+}
+
+std::vector<Point> arc_ends(const Zone::Piece& arc, double radius, double largest) {
+  std::vector<Point> ends = {arc.start, arc.end};
+  double angle = arc_angle(arc);
+  if (arc.start == arc.end) {
+    ends = circle_points(arc);
+    angle /= 4;
+  }
+  for (; angle > largest; angle /= 2) halve(ends, arc.center, radius);
+  return ends;
+}
+
+double piece_length(const Zone::Piece& piece, double radius) {
+  if (piece.kind == Zone::Kind::arc && !is_negligible(piece)) return radius * arc_angle(piece);
+  return std::hypot(piece.end.x - piece.start.x, piece.end.y - piece.start.y);
+}
+
+std::vector<CurveRun> ring_runs(const Zone& zone, std::uint32_t ring) {
+  std::vector<CurveRun> runs;
+  for (std::uint32_t e = zone.ring_begin(ring); e < zone.ring_begin(ring + 1); ++e) {
+    Zone::Piece piece = zone.piece(e);
+    bool arc = piece.kind == Zone::Kind::arc && !is_negligible(piece);
+    if (runs.empty() || runs.back().arc != arc) runs.push_back({arc, {piece.start}});
+    std::vector<Point>& points = runs.back().points;
+    if (!arc) {
+      points.push_back(piece.end);
+      continue;
+    }
+    std::vector<Point> along = arc_points(piece, zone.radius());
+    points.insert(points.end(), along.begin() + 1, along.end());
+  }
+  return runs;
+}
+
+RingMeasure measure_ring(const Zone& zone, std::uint32_t ring) {
+  RingMeasure measure;
+  double r = zone.radius();
+  // Relative to the ring's first point: large coordinates would cancel.
+  Point base = zone.piece(zone.ring_begin(ring)).start;
+  for (std::uint32_t e = zone.ring_begin(ring); e < zone.ring_begin(ring + 1); ++e) {
+    Zone::Piece piece = zone.piece(e);
+    measure.area += cross(minus(piece.start, base), minus(piece.end, base)) / 2;
+    measure.length += piece_length(piece, r);
+    if (piece.kind != Zone::Kind::arc) continue;
+    double angle = arc_angle(piece);
+    measure.area += r * r * (angle - std::sin(angle)) / 2;
+  }
+  return measure;
+}
+
+}  // namespace krepl::output

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "krepl/zone.hpp"
+
+namespace krepl::output {
+
+/// A stretch of a ring of one kind. Lines: two or more points, each joined to the next. Arcs: an odd number of points,
+/// end, middle, end, middle, end ...: every three consecutive ones from an end on are an arc of half a turn at most, so that
+/// three rounded points still determine it well.
+struct CurveRun {
+  bool arc = false;
+  std::vector<Point> points;
+};
+
+/// The angle that an arc piece spans, in (0, 2 pi]; start == end is the full turn.
+double arc_angle(const Zone::Piece& arc);
+
+/// The point halfway along the counter-clockwise arc from `start` to `end`, without trigonometry. Precondition: the ends
+/// differ and the arc is not the full circle.
+Point arc_middle(Point center, double radius, Point start, Point end);
+
+/// An arc shorter than a few units in the last place of its coordinates: no double lies between its ends, so it is
+/// written as a straight piece.
+bool is_negligible(const Zone::Piece& arc);
+
+/// The arc cut into equal-kind parts: start, (middle, end) once or, for more than half a turn, twice.
+std::vector<Point> arc_points(const Zone::Piece& arc, double radius);
+
+/// The arc cut into `2^k` equal parts of at most `largest` radians: their ends, start and end included.
+std::vector<Point> arc_ends(const Zone::Piece& arc, double radius, double largest);
+
+double piece_length(const Zone::Piece& piece, double radius);
+
+/// The ring as runs, alternating between lines and arcs; the last point of a run is the first of the next.
+std::vector<CurveRun> ring_runs(const Zone& zone, std::uint32_t ring);
+
+/// Area (positive for outer rings, negative for holes) and length of one ring.
+struct RingMeasure {
+  double area = 0, length = 0;
+};
+RingMeasure measure_ring(const Zone& zone, std::uint32_t ring);
+
+}  // namespace krepl::output

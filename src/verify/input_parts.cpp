@@ -1,0 +1,57 @@
+#include "verify/input_parts.hpp"
+
+#include "input/geometry_source.hpp"
+#include "input/parts.hpp"
+#include "input/projection.hpp"
+#include "ogr/spatial_reference.hpp"
+
+namespace krepl::verify {
+
+namespace {
+
+Result<input::Parts> read_all(input::GeometrySource& source, const Context& context) {
+  input::Parts parts;
+  for (;;) {
+    if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while reading", "", ""};
+    auto item = source.next();
+    if (!item) return item.error();
+    if (!item->has_value()) return parts;
+    const auto& record = **item;
+    if (record.geometry == nullptr || record.geometry->IsEmpty()) continue;
+    if (auto added = parts.add(*record.geometry, record.number, source.place(record.number)); !added) return added.error();
+  }
+}
+
+std::vector<InputPart> plain(const input::Parts& parts) {
+  std::vector<InputPart> out;
+  out.reserve(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    out.push_back({{parts.points.begin() + std::ptrdiff_t(parts.begin[i]), parts.points.begin() + std::ptrdiff_t(parts.begin[i + 1])},
+                   parts.kind[i] == input::Parts::Kind::ring, parts.feature[i]});
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<InputPart>> read_parts(const InputRequest& request, const Context& context) {
+  auto source = input::open_geometry_source(request.path, {request.layer, request.where}, context);
+  if (!source) return source.error();
+  auto parts = read_all(**source, context);
+  if (!parts) return parts.error();
+  if (parts->size() == 0) return Error{ErrorCode::input, "has no geometry to check against", "", "give the input of the result"};
+
+  input::ProjectionRequest projection;
+  projection.from = (*source)->crs();
+  projection.to_crs = request.to_crs;
+  projection.place = [&](std::int64_t number) { return (*source)->place(number); };
+  if (!request.crs.empty()) {
+    auto assigned = ogr::parse_crs(request.crs);
+    if (!assigned) return assigned.error();
+    projection.from = *assigned;
+  }
+  std::vector<std::string> notes;  // `krepl buffer` has told them
+  if (auto plane = input::project(*parts, projection, notes, context); !plane) return plane.error();
+  return plain(*parts);
+}
+
+}  // namespace krepl::verify

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "krepl/context.hpp"
+#include "krepl/error.hpp"
+#include "verify/obstacle.hpp"
+
+namespace krepl::verify {
+
+/// Which input to take and how to project it; the same meaning as for `krepl buffer`.
+struct InputRequest {
+  std::string path, layer, where, crs, to_crs;
+};
+
+/// Lines, rings and points as they are in the file, after projection. Stops before Network, whose welding and shift of
+/// origin the verifier must not share.
+Result<std::vector<InputPart>> read_parts(const InputRequest& request, const Context& context = {});
+
+}  // namespace krepl::verify

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "krepl/point.hpp"
+#include "verify/bands.hpp"
+#include "verify/nearest_tree.hpp"
+
+namespace krepl::verify {
+
+/// One part of the input as it was read: an open line (one vertex: a point) or a ring of a polygon.
+struct InputPart {
+  std::vector<Point> vertices;
+  bool ring = false;
+  std::int64_t feature = -1;  ///< rings of one feature count by the even-odd rule
+};
+
+/// The input of a zone: segments and points as they were read, nothing welded, cut or dropped.
+class Obstacle {
+ public:
+  struct Segment {
+    Point a, b;  ///< equal: a point
+    Box box() const {
+      Box r;
+      r.add(a), r.add(b);
+      return r;
+    }
+    Real distance(Vec p) const { return distance_to_segment(p, a, b); }
+  };
+  struct Vertex {
+    Point at;
+    Box box() const {
+      Box r;
+      r.add(at);
+      return r;
+    }
+    Real distance(Vec p) const { return verify::distance(p, at); }
+  };
+
+  explicit Obstacle(const std::vector<InputPart>& parts);
+
+  const NearestTree<Segment>& segments() const { return segments_; }
+  const NearestTree<Vertex>& vertices() const { return vertices_; }
+  Box box() const { return segments_.box(); }
+  /// Half the larger side of the box: the extent after the input's own origin is taken off.
+  Real extent() const;
+  /// Distance between neighbouring doubles at the largest absolute coordinate.
+  Real resolution() const;
+
+  /// Distance to the lines, points and rings; the inside of polygons does not count.
+  Real distance(Vec p) const { return segments_.nearest(p).distance; }
+  /// True if p is inside some polygon by the even-odd rule of its feature.
+  bool in_polygon(Vec p) const;
+  bool has_polygons() const { return !sides_.empty(); }
+  /// Length inside the zone of radius r of the line at height y of the ray frame, from the cigars themselves: each meets
+  /// the line in one interval, and the union of the intervals is measured.
+  Real section(Real y, Real r) const;
+  /// Lowest and highest point of the input in the ray frame.
+  std::pair<Real, Real> heights() const;
+  /// Appends the heights, in the ray frame, at which cigars of radius r begin and end, and their caps too.
+  void add_ends(Real r, std::vector<Real>& out) const;
+
+ private:
+  struct Side {  // of a polygon ring, in the ray frame
+    Vec a, b;
+    std::uint32_t polygon;
+  };
+  using Interval = std::pair<Real, Real>;
+  void add_cigars(Real y, Real r, std::vector<Interval>& out) const;
+  void add_polygons(Real y, std::vector<Interval>& out) const;
+
+  static std::vector<Segment> cut(const std::vector<InputPart>& parts);
+  static std::vector<Vertex> corners(const std::vector<InputPart>& parts);
+
+  NearestTree<Segment> segments_;
+  NearestTree<Vertex> vertices_;
+  struct Axis {
+    Vec low, high;
+  };
+  std::vector<Axis> axes_;  // the segments in the ray frame, by lower end
+  Real tallest_ = 0;
+  std::vector<Side> sides_;
+  Bands side_bands_;
+};
+
+}  // namespace krepl::verify

@@ -1,0 +1,143 @@
+// Checks of the rings as rings: closed, not crossing, holes where they belong.
+#include <algorithm>
+#include <string>
+
+#include "verify/zone_checks.hpp"
+
+namespace krepl::verify {
+
+namespace {
+
+/// Points where the full lines or circles of two curves meet; at most two.
+int meetings(const Curve& p, const Curve& q, Vec (&out)[2]) {
+  if (!p.arc && !q.arc) {
+    const Vec u = p.b - p.a, v = q.b - q.a;
+    const Real turn = cross(u, v);
+    if (turn == 0) return 0;
+    out[0] = p.a + (cross(q.a - p.a, v) / turn) * u;
+    return 1;
+  }
+  Vec base, across;  // meetings at base +- across
+  Real square;
+  if (p.arc && q.arc) {
+    const Vec d = q.c - p.c;
+    const Real dd = dot(d, d);
+    if (dd == 0) return 0;
+    const Real along = ((p.r - q.r) * (p.r + q.r) + dd) / 2;
+    base = p.c + (along / dd) * d;
+    square = p.r * p.r - along * along / dd;
+    across = (1 / std::sqrt(dd)) * left_of(d);
+  } else {
+    const Curve& line = p.arc ? q : p;
+    const Curve& circle = p.arc ? p : q;
+    const Vec d = line.b - line.a;
+    const Real l = length(d);
+    if (l == 0) return 0;
+    across = (1 / l) * d;
+    base = line.a + dot(circle.c - line.a, across) * across;
+    const Real h = distance(base, circle.c);
+    square = (circle.r - h) * (circle.r + h);
+  }
+  if (square < 0) return 0;
+  const Real half = std::sqrt(square);
+  out[0] = base + half * across, out[1] = base - half * across;
+  return 2;
+}
+
+bool within(const Curve& e, Vec p) {
+  if (e.arc) return e.sweeps(p - e.c);
+  const Vec d = e.b - e.a;
+  const Real t = dot(p - e.a, d);
+  return t > 0 && t < dot(d, d);
+}
+
+Vec tangent(const Curve& e, Vec p) {
+  const Vec d = e.arc ? left_of(p - e.c) : e.b - e.a;
+  const Real l = length(d);
+  return l > 0 ? (1 / l) * d : Vec();
+}
+
+/// How deep two curves cross: sine of the angle times the length on which they stay crossed. Zero if they do not.
+Real crossing_depth(const Curve& p, const Curve& q, Vec& where) {
+  Vec m[2];
+  const int count = meetings(p, q, m);
+  Real deepest = 0;
+  for (int k = 0; k < count; ++k) {
+    if (!within(p, m[k]) || !within(q, m[k])) continue;
+    Real reach = std::min(std::min(distance(m[k], p.a), distance(m[k], p.b)),
+                          std::min(distance(m[k], q.a), distance(m[k], q.b)));
+    // Two curves that meet twice enclose a lens; its depth is a fraction of its length.
+    if (count == 2 && within(p, m[1 - k]) && within(q, m[1 - k])) reach = std::min(reach, distance(m[0], m[1]) / 4);
+    const Real depth = std::abs(cross(tangent(p, m[k]), tangent(q, m[k]))) * reach;
+    if (depth > deepest) deepest = depth, where = m[k];
+  }
+  return deepest;
+}
+
+}  // namespace
+
+Check check_joins(const ZoneCase& zone) {
+  const auto& curves = zone.boundary.curves().items();
+  Tally tally;
+  for (const Boundary::Ring& ring : zone.boundary.rings()) {
+    if (ring.first == ring.last) tally.add(HUGE_VALL, zone.tolerance, Vec());
+    for (std::uint32_t i = ring.first; i < ring.last; ++i) {
+      const Curve& next = curves[i + 1 < ring.last ? i + 1 : ring.first];
+      tally.add(distance(curves[i].b, next.a), zone.tolerance, curves[i].b);
+    }
+  }
+  return tally.check("pieces join end to end", zone.tolerance);
+}
+
+// Tangent pieces of a true zone may cross by rounding; a crossing counts when it is deeper than the tolerance, for linear
+// formats too: chords may be off, but must not cross.
+Check check_crossings(const ZoneCase& zone) {
+  const auto& curves = zone.boundary.curves();
+  const Tally tally = tally_all(zone.context, curves.items().size(), [&](std::size_t i, Tally& t) {
+    const Curve& p = curves.items()[i];
+    Vec where = p.a;
+    Real deepest = 0;
+    curves.for_each_in(p.box(), [&](std::uint32_t j) {
+      if (j <= i) return;
+      Vec at;
+      const Real depth = crossing_depth(p, curves.items()[j], at);
+      if (depth > deepest) deepest = depth, where = at;
+    });
+    t.add(deepest, zone.tolerance, where);
+  });
+  return tally.check("rings do not cross", zone.tolerance);
+}
+
+Check check_nesting(const ZoneCase& zone) {
+  const auto& curves = zone.boundary.curves().items();
+  const auto& rings = zone.boundary.rings();
+  std::size_t turned = 0;
+  for (const auto& ring : rings) turned += ring.turned;
+  Tally tally = tally_all(zone.context, rings.size(), [&](std::size_t r, Tally& t) {
+    const Boundary::Ring& ring = rings[r];
+    if (ring.first == ring.last) return;
+    // The middle of the longest piece: farthest from where rings may touch.
+    const Curve& longest = *std::max_element(curves.begin() + ring.first, curves.begin() + ring.last,
+                                             [](const Curve& p, const Curve& q) { return p.length() < q.length(); });
+    const Vec p = longest.at(0.5L);
+    std::vector<std::uint32_t> around;
+    zone.boundary.rings_around(p, around);
+    // Around a hole: its own outer ring, and pairs of outer rings and holes that enclose the whole polygon. Around an
+    // outer ring: such pairs only. So rings other than itself must balance.
+    int balance = 0;
+    bool own_outer = false;
+    for (const std::uint32_t k : around) {
+      if (k == r) continue;
+      balance += rings[k].hole ? -1 : 1;
+      own_outer |= !rings[k].hole && rings[k].polygon == ring.polygon;
+      if (rings[k].hole && rings[k].polygon == ring.polygon && ring.hole) balance = -1000;  // holes overlap
+    }
+    const bool right = ring.hole ? own_outer && balance == 1 : balance == 0;
+    t.add(right ? 0 : longest.length(), 0, p);
+  });
+  Check check = tally.check("holes in their outer rings", 0);
+  if (turned > 0) check.note = std::to_string(turned) + " rings run the other way round";
+  return check;
+}
+
+}  // namespace krepl::verify
