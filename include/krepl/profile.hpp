@@ -62,8 +62,7 @@ constexpr std::size_t profile_capacity(std::size_t points) { return 2 * points +
 struct ProfileCounters {
   std::uint64_t segments = 0;           ///< segments of positive length
   std::uint64_t pops = 0;               ///< pieces hidden by a later segment
-  std::uint64_t in_long_double = 0;     ///< decisions and crossings that double precision left open
-  std::uint64_t in_quadruple = 0;       ///< of those, the ones that long double left open too
+  std::uint64_t in_double_double = 0;   ///< decisions and crossings that double precision left open
   std::uint64_t ties = 0;               ///< of those, true ties: the piece of length zero is dropped
   std::uint64_t collapsed_pieces = 0;   ///< pieces dropped because they have no length in double precision
   std::uint64_t largest_stack = 0;      ///< most pieces held at once (sequential and streaming: the window's size)
@@ -91,7 +90,8 @@ class ProfileEngine {
 
   const ProfileCounters& counters() const;
 
-  /// Segments in a block of the parallel version, at least 1; for tests and measurements. Changes no bit of a result.
+  /// Segments in a block of the parallel version, which is then used on one thread too; 0 (the default) chooses. For tests
+  /// and measurements; changes no bit of a result.
   void set_block_size(std::size_t segments);
 
  private:

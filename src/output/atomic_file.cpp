@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <mutex>
+#include <set>
 #include <system_error>
 #include <vector>
 
@@ -50,16 +52,43 @@ Result<fs::path> resolve(const std::string& path) {
 
 }  // namespace
 
+namespace {
+
+// Temporary directories that exist now. The mutex is also held while files are renamed.
+std::mutex registry_mutex;
+std::set<fs::path>& registry() {
+  static auto* paths = new std::set<fs::path>;  // never destroyed: another thread may use it until the very end
+  return *paths;
+}
+
+}  // namespace
+
 struct AtomicFile::Place {
   fs::path target;
   fs::path directory;  // the temporary one
   std::string temporary;
 
+  Place(fs::path target_path, fs::path temporary_directory)
+      : target(std::move(target_path)), directory(std::move(temporary_directory)),
+        temporary((directory / target.filename()).string()) {
+    std::lock_guard lock(registry_mutex);
+    registry().insert(directory);
+  }
   ~Place() {
+    std::lock_guard lock(registry_mutex);
+    registry().erase(directory);
     std::error_code ignored;
-    if (!directory.empty()) fs::remove_all(directory, ignored);
+    fs::remove_all(directory, ignored);
   }
 };
+
+void abandon_temporary_files() {
+  registry_mutex.lock();  // for good
+  for (const fs::path& directory : registry()) {
+    std::error_code ignored;
+    fs::remove_all(directory, ignored);
+  }
+}
 
 AtomicFile::AtomicFile(std::shared_ptr<Place> place) : place_(std::move(place)) {}
 
@@ -82,11 +111,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
     std::string remedy = errno == ENOENT ? "create the directory first" : "";
     return io_error("cannot be written", errno, remedy);
   }
-  auto place = std::make_shared<Place>();
-  place->target = *target;
-  place->directory = pattern;
-  place->temporary = (place->directory / target->filename()).string();
-  return AtomicFile(std::move(place));
+  return AtomicFile(std::make_shared<Place>(*target, pattern));
 }
 
 const std::string& AtomicFile::temporary_path() const { return place_->temporary; }
@@ -112,6 +137,7 @@ Status AtomicFile::commit() {
     // Best effort: a file system without permissions is no reason to lose the result.
     if (replaces && ::chmod(file.c_str(), old.st_mode & 07777) != 0) errno = 0;
   }
+  std::lock_guard lock(registry_mutex);
   for (const fs::path& file : files) {
     fs::rename(file, parent / file.filename(), code);
     if (code) return io_error("cannot be replaced", code.value());

@@ -34,6 +34,10 @@ class AtomicFile {
   std::shared_ptr<Place> place_;
 };
 
+/// Removes the temporary directories of all files not committed yet, for a process about to end without unwinding its
+/// stack. A commit that is renaming is let through to its end, and none can begin any more: the caller must exit.
+void abandon_temporary_files();
+
 /// True if `path` names something that is written to directly (a pipe, a terminal, /dev/null), not replaced.
 bool is_stream_target(const std::string& path);
 

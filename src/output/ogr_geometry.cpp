@@ -1,5 +1,7 @@
 #include "output/ogr_geometry.hpp"
 
+#include <algorithm>
+
 #include "output/zone_curves.hpp"
 
 namespace krepl::output {
@@ -39,13 +41,16 @@ std::unique_ptr<OGRCurvePolygon> curve_polygon(const Zone& zone, std::uint32_t p
   return result;
 }
 
-std::unique_ptr<OGRPolygon> linear_polygon(const Zone& zone, std::uint32_t p, Linearizer& linearizer) {
+std::unique_ptr<OGRPolygon> linear_polygon(const Zone& zone, std::uint32_t p, Linearizer& linearizer, OuterSense sense) {
   auto result = std::make_unique<OGRPolygon>();
+  auto add_ring = [&](std::uint32_t ring) {
+    std::vector<Point> points = linearizer.ring(zone, ring);
+    if (sense == OuterSense::clockwise) std::reverse(points.begin(), points.end());
+    result->addRingDirectly(simple_curve<OGRLinearRing>(points).release());
+  };
   Zone::Polygon polygon = zone.polygon(p);
-  result->addRingDirectly(simple_curve<OGRLinearRing>(linearizer.ring(zone, polygon.outer)).release());
-  for (std::uint32_t hole : polygon.holes) {
-    result->addRingDirectly(simple_curve<OGRLinearRing>(linearizer.ring(zone, hole)).release());
-  }
+  add_ring(polygon.outer);
+  for (std::uint32_t hole : polygon.holes) add_ring(hole);
   return result;
 }
 
@@ -70,11 +75,11 @@ std::unique_ptr<OGRGeometry> curve_geometry(const Zone& zone, const ZoneFeature&
 }
 
 std::unique_ptr<OGRGeometry> linear_geometry(const Zone& zone, const ZoneFeature& feature, bool single,
-                                             Linearizer& linearizer) {
-  if (single) return linear_polygon(zone, feature.first_polygon, linearizer);
+                                             Linearizer& linearizer, OuterSense sense) {
+  if (single) return linear_polygon(zone, feature.first_polygon, linearizer, sense);
   auto surface = std::make_unique<OGRMultiPolygon>();
   for (std::uint32_t i = 0; i < feature.polygon_count; ++i) {
-    surface->addGeometryDirectly(linear_polygon(zone, feature.first_polygon + i, linearizer).release());
+    surface->addGeometryDirectly(linear_polygon(zone, feature.first_polygon + i, linearizer, sense).release());
   }
   return surface;
 }

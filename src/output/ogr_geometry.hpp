@@ -15,8 +15,11 @@ std::unique_ptr<OGRCompoundCurve> piece_geometry(const Zone& zone, std::uint32_t
 /// A feature's polygons with true curves: a MULTISURFACE, or a CURVEPOLYGON if `single` (precondition: it has one polygon).
 std::unique_ptr<OGRGeometry> curve_geometry(const Zone& zone, const ZoneFeature& feature, bool single);
 
+/// The sense of outer rings; holes run the other way. Shapefile wants them clockwise.
+enum class OuterSense { counter_clockwise, clockwise };
+
 /// The same with chords: MULTIPOLYGON or POLYGON.
 std::unique_ptr<OGRGeometry> linear_geometry(const Zone& zone, const ZoneFeature& feature, bool single,
-                                             Linearizer& linearizer);
+                                             Linearizer& linearizer, OuterSense sense);
 
 }  // namespace krepl::output

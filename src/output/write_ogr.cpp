@@ -135,6 +135,7 @@ Status OgrWriter::add_feature(OGRLayer& layer, OGRFeature& feature) {
 
 Status OgrWriter::write_zone(OGRLayer& layer, const Zone& zone, bool curves) {
   Linearizer linearizer(zone.radius(), max_error_for(options_, zone.radius()));
+  OuterSense sense = driver_ == "ESRI Shapefile" ? OuterSense::clockwise : OuterSense::counter_clockwise;
   for (const ZoneFeature& from : zone_features(zone, options_.separate)) {
     if (context_.cancelled()) return interrupted_while_writing();
     OGRFeature feature(layer.GetLayerDefn());
@@ -144,7 +145,7 @@ Status OgrWriter::write_zone(OGRLayer& layer, const Zone& zone, bool curves) {
     feature.SetField("polygons", static_cast<int>(from.polygon_count));
     feature.SetField("holes", static_cast<int>(from.holes));
     auto geometry = curves ? curve_geometry(zone, from, options_.separate)
-                           : linear_geometry(zone, from, options_.separate, linearizer);
+                           : linear_geometry(zone, from, options_.separate, linearizer, sense);
     ++features_;
     coordinates_ += coordinate_count(*geometry);
     feature.SetGeometryDirectly(geometry.release());
@@ -214,6 +215,8 @@ Status OgrWriter::close(bool transaction) {
 
 Status OgrWriter::read_back(const std::string& path) {
   messages_.clear();
+  // Only the coordinates are counted: which ring belongs to which polygon would cost quadratic time.
+  ScopedOption unsorted("OGR_ORGANIZE_POLYGONS", "SKIP");
   Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
   if (!dataset || dataset->GetLayerCount() == 0) return failure("cannot be read back after writing");
   std::size_t features = 0, coordinates = 0;
@@ -232,6 +235,8 @@ Status OgrWriter::write(const std::string& path, std::span<const Zone> zones) {
   ScopedOption fixed_date("OGR_CURRENT_DATE", date("%Y-%m-%dT%H:%M:%S.000Z"));
   // AtomicFile flushes the finished file once; until then it is nobody's.
   ScopedOption lazy("OGR_SQLITE_SYNCHRONOUS", "OFF");
+  // The driver would find out again, in quadratic time, which ring is a hole; write_zone gives rings their right sense.
+  ScopedOption as_given("SHAPE_REWIND_ON_WRITE", "NO");
   if (Status created = create(path); !created) return created;
   bool transaction = dataset_->TestCapability(ODsCTransactions) && dataset_->StartTransaction() == OGRERR_NONE;
   if (Status written = write_zone_layer(zones); !written) return written;

@@ -1,7 +1,7 @@
 #include "profile/check.hpp"
 
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 namespace krepl::profile {
@@ -10,8 +10,7 @@ namespace {
 
 std::string number(double x) {
   char text[40];
-  std::snprintf(text, sizeof text, "%.17g", x);
-  return text;
+  return {text, std::to_chars(text, text + sizeof text, x).ptr};
 }
 
 }  // namespace

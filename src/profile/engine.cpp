@@ -38,8 +38,7 @@ struct Block {
 void add(ProfileCounters& sum, const ProfileCounters& c) {
   sum.segments += c.segments;
   sum.pops += c.pops;
-  sum.in_long_double += c.in_long_double;
-  sum.in_quadruple += c.in_quadruple;
+  sum.in_double_double += c.in_double_double;
   sum.ties += c.ties;
   sum.largest_stack = std::max(sum.largest_stack, c.largest_stack);
   sum.replayed_segments += c.replayed_segments;
@@ -54,6 +53,7 @@ struct ProfileEngine::State {
   std::vector<Block> blocks;
   ProfileCounters counters;
   std::size_t block_size = default_block;
+  bool always_blocks = false;  // even on one thread
 
   std::span<const Point> terrain;
   double radius = 0;
@@ -163,7 +163,10 @@ ProfileEngine& ProfileEngine::operator=(ProfileEngine&&) noexcept = default;
 
 const ProfileCounters& ProfileEngine::counters() const { return state_->counters; }
 
-void ProfileEngine::set_block_size(std::size_t segments) { state_->block_size = std::max<std::size_t>(1, segments); }
+void ProfileEngine::set_block_size(std::size_t segments) {
+  state_->always_blocks = segments != 0;
+  state_->block_size = segments != 0 ? segments : default_block;
+}
 
 Result<std::size_t> ProfileEngine::compute(std::span<const Point> terrain, double radius, std::span<ProfilePiece> out,
                                            const Context& context) {
@@ -179,7 +182,8 @@ Result<std::size_t> ProfileEngine::compute(std::span<const Point> terrain, doubl
   s.counters = {};
   PieceWriter write{out.data()};
   const unsigned threads = context.threads != 0 ? context.threads : std::max(1u, std::thread::hardware_concurrency());
-  const bool alone = threads == 1 || terrain.size() <= s.block_size + 1;
+  const bool few = threads == 1 || terrain.size() <= s.block_size + 1;
+  const bool alone = terrain.size() == 1 || (few && !s.always_blocks);
   if (std::optional<Error> error = alone ? s.run_alone(write, context) : s.run_blocks(write, context, threads))
     return *error;
   s.sweep.finish(write);

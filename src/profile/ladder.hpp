@@ -3,8 +3,8 @@
 #include "krepl/profile.hpp"
 #include "profile/element.hpp"
 
-// The upper rungs of the predicates: what double precision leaves open (sweep.cpp) is decided here from the input's own
-// numbers, in long double, then in quadruple precision; what is still open is a tie.
+// The upper rung of the predicates: what double precision leaves open (sweep.cpp) is decided here from the input's own
+// numbers with twice the digits; what is still open is a tie.
 namespace krepl::profile {
 
 /// The later element of a question: the side of segment a-b, or (a == b) nothing but the circle about b.

@@ -76,6 +76,7 @@ class Sweep {
   struct Edges {
     alignas(64) std::array<double, batch> nx, ny, length;
   };
+  struct Top;
   struct Splice {
     std::size_t keep;   // entries of this that stay
     std::size_t from;   // entries of the right one from here on follow
@@ -84,12 +85,7 @@ class Sweep {
   };
 
   std::size_t measure(const Point* points, std::size_t count);
-  void insert(std::size_t k, Point w, Label vertex_label);
-  void insert_valley(Point w, Point n, double length, Label vertex_label, int turned, double sine);
-  bool covered(const Entry& before, const Entry& p, Point v, Point w, Point n, double length);
-  bool beyond(const Entry& p, Point v, Point w, Point n, double length);
   Start crossing(const Entry& p, Point v, Point w, Point n, double length, bool on_circle);
-  void put_circle(Entry* e, Point at, Point n, float error, Label label);
   double circle_turn_bound(float error) const { return double(error) / radius_ + 8 * epsilon<double>; }
   void compact();
   bool hold_ends_at(std::size_t entry);

@@ -49,22 +49,26 @@ class Strips {
   std::vector<Real> edges_;
 };
 
-}  // namespace
+/// Lengths inside the zone on two lines of each strip, from the input alone.
+std::vector<Real> input_lengths(const ZoneCase& zone, const Strips& strips) {
+  std::vector<Real> lengths(2 * strips.count());
+  tally_all(zone.context, lengths.size(),
+            [&](std::size_t i, Tally&) { lengths[i] = zone.obstacle.section(strips.line(i / 2, i % 2), zone.radius); });
+  return lengths;
+}
 
-// If the boundary is off by at most e everywhere, the integral of |difference| is at most e times its length in the mean;
-// a line that grazes an arc adds sqrt(8 R e) of length over one strip.
-Check check_sections(const ZoneCase& zone) {
-  const Strips strips(zone);
-  std::vector<Real> off(2 * strips.count());
+// If the boundary is off by at most e everywhere, the integral of |difference| is at most e times its length in the
+// mean; a line that grazes an arc adds sqrt(8 R e) of length over one strip.
+Check compare_sections(const ZoneCase& zone, const Strips& strips, const std::vector<Real>& lengths) {
+  std::vector<Real> off(lengths.size());
   Tally tally = tally_all(zone.context, off.size(), [&](std::size_t i, Tally& t) {
-    const Real y = strips.line(i / 2, i % 2);
-    off[i] = std::abs(zone.obstacle.section(y, zone.radius) - zone.boundary.section(y));
+    off[i] = std::abs(lengths[i] - zone.boundary.section(strips.line(i / 2, i % 2)));
     t.add(off[i], HUGE_VALL, Vec());
   });
   Real integral = 0;
   for (std::size_t i = 0; i < off.size(); ++i) integral += off[i] * strips.height(i / 2) / 2;
-  const Real limit = 4 * (zone.deviation * zone.boundary.perimeter() +
-                          strips.tallest() * std::sqrt(8 * zone.radius * zone.deviation));
+  const Real limit =
+      4 * (zone.deviation * zone.boundary.perimeter() + strips.tallest() * std::sqrt(8 * zone.radius * zone.deviation));
   char note[80];
   std::snprintf(note, sizeof note, "worst line differs by %.3Lg", tally.worst);
   tally.worst = integral;
@@ -74,15 +78,9 @@ Check check_sections(const ZoneCase& zone) {
   return check;
 }
 
-Check check_area(const ZoneCase& zone) {
-  const Strips strips(zone);
-  std::vector<Real> lengths(2 * strips.count());
-  Tally tally = tally_all(zone.context, lengths.size(), [&](std::size_t i, Tally& t) {
-    lengths[i] = zone.obstacle.section(strips.line(i / 2, i % 2), zone.radius);
-    ++t.tested;
-  });
-  // The error of one strip is at most its height times the range of lengths within it. The range is taken over the strip
-  // and its neighbours: where the length jumps, two lines of one strip may well lie on the same side of the jump.
+Check compare_areas(const ZoneCase& zone, const Strips& strips, const std::vector<Real>& lengths) {
+  // The error of one strip is at most its height times the range of lengths within it. The range is taken over the
+  // strip and its neighbours: where the length jumps, two lines of one strip may well lie on the same side of the jump.
   Real area = 0, variance = 0;
   for (std::size_t k = 0; k < strips.count(); ++k) {
     area += (lengths[2 * k] + lengths[2 * k + 1]) / 2 * strips.height(k);
@@ -94,6 +92,8 @@ Check check_area(const ZoneCase& zone) {
     variance += range * range / 4;
   }
   const Real limit = 6 * std::sqrt(variance) + zone.deviation * zone.boundary.perimeter();
+  Tally tally;
+  tally.tested = lengths.size();
   tally.worst = std::abs(area - zone.boundary.area());
   tally.violations = tally.worst <= limit ? 0 : 1;
   Check check = tally.check("area by strips", limit);
@@ -101,6 +101,14 @@ Check check_area(const ZoneCase& zone) {
   std::snprintf(note, sizeof note, "%.12Lg, standard error %.2Lg", area, std::sqrt(variance));
   check.note = note;
   return check;
+}
+
+}  // namespace
+
+std::array<Check, 2> check_areas(const ZoneCase& zone) {
+  const Strips strips(zone);
+  const std::vector<Real> lengths = input_lengths(zone, strips);
+  return {compare_sections(zone, strips, lengths), compare_areas(zone, strips, lengths)};
 }
 
 }  // namespace krepl::verify

@@ -37,7 +37,7 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
   std::uint32_t ring = 0;
   const auto& vertices = obstacle.vertices();
 
-  const auto find_centre = [&](const Vec (&p)[3], Vec& centre) {
+  const auto find_centre = [&](const Vec(&p)[3], Vec& centre) {
     Box around;
     around.add(p[1]);
     Real best = HUGE_VALL;
@@ -57,8 +57,8 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
       ++fit.arcs;
       const Vec p[3] = {piece.start, piece.middle, piece.end};
       Vec circle;
-      const bool round = piece.start == piece.end ? (circle = 0.5L * (p[0] + p[1]), true)
-                                                  : circle_through(p[0], p[1], p[2], circle);
+      const bool round =
+          piece.start == piece.end ? (circle = 0.5L * (p[0] + p[1]), true) : circle_through(p[0], p[1], p[2], circle);
       Vec centre;
       const Real off = find_centre(p, centre);
       if (off <= tolerance) {
@@ -69,8 +69,9 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
       }
       // Without any vertex near R the difference has no value; the count tells.
       if (off < HUGE_VALL && off > fit.worst) fit.worst = off, fit.where = p[1];
-      if (curve.arc) curve.sweep = piece.start == piece.end ? (outer ? 2 * pi : -2 * pi)
-                                                            : sweep_of(p[0], p[1], p[2], curve.c, curve.r);
+      if (curve.arc)
+        curve.sweep =
+            piece.start == piece.end ? (outer ? 2 * pi : -2 * pi) : sweep_of(p[0], p[1], p[2], curve.c, curve.r);
       // An arc whose ends coincide on a ray from the centre has no extent.
       if (curve.arc && curve.sweep == 0) curve.arc = false;
     }
@@ -121,7 +122,8 @@ Real Boundary::ring_area(const Ring& ring) const {
     if (!e.arc) continue;
     // The circular segment between arc and chord; the series keeps short arcs from cancelling.
     const Real s = e.sweep;
-    const Real excess = std::abs(s) < 1e-3L ? s * s * s * (1 / 6.0L - s * s * (1 / 120.0L - s * s / 5040)) : s - std::sin(s);
+    const Real excess =
+        std::abs(s) < 1e-3L ? s * s * s * (1 / 6.0L - s * s * (1 / 120.0L - s * s / 5040)) : s - std::sin(s);
     twice += e.r * e.r * excess;
   }
   return twice / 2;
@@ -158,8 +160,7 @@ void Boundary::make_parts() {
     cuts.emplace_back(std::abs(e.sweep), e.b);
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
       Part part{cuts[i].second, cuts[i + 1].second, 0, e.c, e.r, e.ring};
-      if (e.arc)
-        part.side = e.at((cuts[i].first + cuts[i + 1].first) / (2 * std::abs(e.sweep))).x > e.c.x ? 1 : -1;
+      if (e.arc) part.side = e.at((cuts[i].first + cuts[i + 1].first) / (2 * std::abs(e.sweep))).x > e.c.x ? 1 : -1;
       if (part.a.y == part.b.y) continue;
       ranges.push_back(std::minmax(part.a.y, part.b.y));
       parts_.push_back(part);

@@ -22,7 +22,8 @@ Vec sample_point(const ZoneCase& zone, const Box& region, std::size_t i) {
   Random random(zone.seed, i);
   const auto& curves = zone.boundary.curves().items();
   const std::size_t kind = curves.empty() ? i % 2 : i % 4;
-  if (kind == 0) return {region.x0 + random.unit() * (region.x1 - region.x0), region.y0 + random.unit() * (region.y1 - region.y0)};
+  if (kind == 0)
+    return {region.x0 + random.unit() * (region.x1 - region.x0), region.y0 + random.unit() * (region.y1 - region.y0)};
   if (kind == 1) {
     const auto& segments = zone.obstacle.segments().items();
     const auto& s = segments[random.below(segments.size())];

@@ -18,7 +18,8 @@ Result<input::Parts> read_all(input::GeometrySource& source, const Context& cont
     if (!item->has_value()) return parts;
     const auto& record = **item;
     if (record.geometry == nullptr || record.geometry->IsEmpty()) continue;
-    if (auto added = parts.add(*record.geometry, record.number, source.place(record.number)); !added) return added.error();
+    if (auto added = parts.add(*record.geometry, record.number, source.place(record.number)); !added)
+      return added.error();
   }
 }
 
@@ -26,8 +27,10 @@ std::vector<InputPart> plain(const input::Parts& parts) {
   std::vector<InputPart> out;
   out.reserve(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i)
-    out.push_back({{parts.points.begin() + std::ptrdiff_t(parts.begin[i]), parts.points.begin() + std::ptrdiff_t(parts.begin[i + 1])},
-                   parts.kind[i] == input::Parts::Kind::ring, parts.feature[i]});
+    out.push_back({{parts.points.begin() + std::ptrdiff_t(parts.begin[i]),
+                    parts.points.begin() + std::ptrdiff_t(parts.begin[i + 1])},
+                   parts.kind[i] == input::Parts::Kind::ring,
+                   parts.feature[i]});
   return out;
 }
 
@@ -38,7 +41,8 @@ Result<std::vector<InputPart>> read_parts(const InputRequest& request, const Con
   if (!source) return source.error();
   auto parts = read_all(**source, context);
   if (!parts) return parts.error();
-  if (parts->size() == 0) return Error{ErrorCode::input, "has no geometry to check against", "", "give the input of the result"};
+  if (parts->size() == 0)
+    return Error{ErrorCode::input, "has no geometry to check against", "", "give the input of the result"};
 
   input::ProjectionRequest projection;
   projection.from = (*source)->crs();

@@ -56,7 +56,8 @@ class NearestTree {
   };
   static constexpr std::uint32_t leaf_size = 6;
 
-  void build(std::vector<std::uint32_t>& order, const std::vector<Box>& boxes, std::uint32_t first, std::uint32_t last) {
+  void build(std::vector<std::uint32_t>& order, const std::vector<Box>& boxes, std::uint32_t first,
+             std::uint32_t last) {
     const std::size_t self = nodes_.size();
     nodes_.push_back({{}, first, last});
     Box all, middles;

@@ -52,8 +52,7 @@ Real Obstacle::extent() const {
 
 Real Obstacle::resolution() const {
   const Box b = box();
-  const Real largest =
-      std::max(std::max(std::abs(b.x0), std::abs(b.x1)), std::max(std::abs(b.y0), std::abs(b.y1)));
+  const Real largest = std::max(std::max(std::abs(b.x0), std::abs(b.x1)), std::max(std::abs(b.y0), std::abs(b.y1)));
   return largest * std::numeric_limits<double>::epsilon();
 }
 
@@ -89,8 +88,8 @@ bool Obstacle::in_polygon(Vec place) const {
 }
 
 void Obstacle::add_cigars(Real y, Real r, std::vector<Interval>& out) const {
-  auto it = std::partition_point(axes_.begin(), axes_.end(),
-                                 [&](const Axis& axis) { return axis.low.y < y - r - tallest_; });
+  auto it =
+      std::partition_point(axes_.begin(), axes_.end(), [&](const Axis& axis) { return axis.low.y < y - r - tallest_; });
   for (; it != axes_.end() && it->low.y <= y + r; ++it) {
     const Vec a = it->low, b = it->high;
     Real x0 = HUGE_VALL, x1 = -HUGE_VALL;
@@ -121,7 +120,8 @@ void Obstacle::add_polygons(Real y, std::vector<Interval>& out) const {
     crossings.emplace_back(s.polygon, s.a.x + (y - s.a.y) / (s.b.y - s.a.y) * (s.b.x - s.a.x));
   }
   std::sort(crossings.begin(), crossings.end());
-  for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) out.emplace_back(crossings[i].second, crossings[i + 1].second);
+  for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
+    out.emplace_back(crossings[i].second, crossings[i + 1].second);
 }
 
 Real Obstacle::section(Real y, Real r) const {

@@ -53,8 +53,8 @@ class Obstacle {
   /// True if p is inside some polygon by the even-odd rule of its feature.
   bool in_polygon(Vec p) const;
   bool has_polygons() const { return !sides_.empty(); }
-  /// Length inside the zone of radius r of the line at height y of the ray frame, from the cigars themselves: each meets
-  /// the line in one interval, and the union of the intervals is measured.
+  /// Length inside the zone of radius r of the line at height y of the ray frame, from the cigars themselves: each
+  /// meets the line in one interval, and the union of the intervals is measured.
   Real section(Real y, Real r) const;
   /// Lowest and highest point of the input in the ray frame.
   std::pair<Real, Real> heights() const;

@@ -74,6 +74,24 @@ Real crossing_depth(const Curve& p, const Curve& q, Vec& where) {
   return deepest;
 }
 
+/// True if the rings around a point of ring r are as they must be. Around a hole: its own outer ring, and pairs of outer
+/// rings and holes that enclose the whole polygon; around an outer ring such pairs only. So the others must balance.
+bool nested_at(const Boundary& boundary, std::uint32_t r, Vec p) {
+  const auto& rings = boundary.rings();
+  std::vector<std::uint32_t> around;
+  boundary.rings_around(p, around);
+  int balance = 0;
+  bool own_outer = false;
+  for (const std::uint32_t k : around) {
+    if (k == r) continue;
+    balance += rings[k].hole ? -1 : 1;
+    if (rings[k].polygon != rings[r].polygon) continue;
+    if (rings[k].hole && rings[r].hole) return false;  // holes overlap
+    own_outer |= !rings[k].hole;
+  }
+  return rings[r].hole ? own_outer && balance == 1 : balance == 0;
+}
+
 }  // namespace
 
 Check check_joins(const ZoneCase& zone) {
@@ -89,8 +107,8 @@ Check check_joins(const ZoneCase& zone) {
   return tally.check("pieces join end to end", zone.tolerance);
 }
 
-// Tangent pieces of a true zone may cross by rounding; a crossing counts when it is deeper than the tolerance, for linear
-// formats too: chords may be off, but must not cross.
+// Tangent pieces of a true zone may cross by rounding; a crossing counts when it is deeper than the tolerance, for
+// linear formats too: chords may be off, but must not cross.
 Check check_crossings(const ZoneCase& zone) {
   const auto& curves = zone.boundary.curves();
   const Tally tally = tally_all(zone.context, curves.items().size(), [&](std::size_t i, Tally& t) {
@@ -116,24 +134,12 @@ Check check_nesting(const ZoneCase& zone) {
   Tally tally = tally_all(zone.context, rings.size(), [&](std::size_t r, Tally& t) {
     const Boundary::Ring& ring = rings[r];
     if (ring.first == ring.last) return;
-    // The middle of the longest piece: farthest from where rings may touch.
     const Curve& longest = *std::max_element(curves.begin() + ring.first, curves.begin() + ring.last,
                                              [](const Curve& p, const Curve& q) { return p.length() < q.length(); });
-    const Vec p = longest.at(0.5L);
-    std::vector<std::uint32_t> around;
-    zone.boundary.rings_around(p, around);
-    // Around a hole: its own outer ring, and pairs of outer rings and holes that enclose the whole polygon. Around an
-    // outer ring: such pairs only. So rings other than itself must balance.
-    int balance = 0;
-    bool own_outer = false;
-    for (const std::uint32_t k : around) {
-      if (k == r) continue;
-      balance += rings[k].hole ? -1 : 1;
-      own_outer |= !rings[k].hole && rings[k].polygon == ring.polygon;
-      if (rings[k].hole && rings[k].polygon == ring.polygon && ring.hole) balance = -1000;  // holes overlap
-    }
-    const bool right = ring.hole ? own_outer && balance == 1 : balance == 0;
-    t.add(right ? 0 : longest.length(), 0, p);
+    // Rings may touch in single points, where rounding decides; no two of these three are likely to be such.
+    int right = 0;
+    for (const Real at : {0.217L, 0.5L, 0.841L}) right += nested_at(zone.boundary, std::uint32_t(r), longest.at(at));
+    t.add(right >= 2 ? 0 : longest.length(), 0, longest.at(0.5L));
   });
   Check check = tally.check("holes in their outer rings", 0);
   if (turned > 0) check.note = std::to_string(turned) + " rings run the other way round";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -16,8 +17,8 @@ struct ZoneCase {
   const Obstacle& obstacle;
   const Boundary& boundary;
   Real radius;
-  Real tolerance;   ///< of true curves
-  Real deviation;   ///< tolerance, and what a linear format was allowed
+  Real tolerance;  ///< of true curves
+  Real deviation;  ///< tolerance, and what a linear format was allowed
   std::uint64_t samples;
   double effort;
   std::uint64_t seed;
@@ -29,8 +30,8 @@ Check check_centres(const ZoneCase& zone);
 Check check_distances(const ZoneCase& zone);
 Check check_membership(const ZoneCase& zone);
 Check check_coverage(const ZoneCase& zone);
-Check check_sections(const ZoneCase& zone);
-Check check_area(const ZoneCase& zone);
+/// On parallel lines: the difference of lengths, and the area against Green's formula.
+std::array<Check, 2> check_areas(const ZoneCase& zone);
 Check check_crossings(const ZoneCase& zone);
 Check check_nesting(const ZoneCase& zone);
 
@@ -74,7 +75,10 @@ Tally tally_all(const Context& context, std::size_t count, F&& f) {
 /// A sequence of random numbers of its own for each index (splitmix64), the same on every machine.
 class Random {
  public:
-  Random(std::uint64_t seed, std::uint64_t index) : state_(seed * 0x9E3779B97F4A7C15u ^ (index + 1) * 0xD1B54A32D192ED03u) { next(); }
+  Random(std::uint64_t seed, std::uint64_t index)
+      : state_(seed * 0x9E3779B97F4A7C15u ^ (index + 1) * 0xD1B54A32D192ED03u) {
+    next();
+  }
   std::uint64_t next() {
     std::uint64_t z = state_ += 0x9E3779B97F4A7C15u;
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;

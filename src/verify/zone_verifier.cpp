@@ -51,16 +51,27 @@ Result<ZoneReport> check_zone(const std::vector<input::ResultPolygon>& polygons,
   report.pieces = boundary.curves().items().size();
   report.arcs = boundary.arc_fit().arcs;
 
-  const ZoneCase zone{obstacle, boundary, options.radius, report.tolerance,
+  const ZoneCase zone{obstacle,
+                      boundary,
+                      options.radius,
+                      report.tolerance,
                       Real(report.tolerance) + options.max_error,
                       options.samples != 0 ? options.samples : default_samples(report.pieces, options.effort),
-                      options.effort, options.seed, context};
-  for (auto* check : {check_joins, check_centres, check_distances, check_membership, check_coverage, check_sections,
-                      check_area, check_crossings, check_nesting}) {
-    report.checks.push_back(check(zone));
-    if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while checking", "", ""};
+                      options.effort,
+                      options.seed,
+                      context};
+  const auto add = [&](const Check& check) {
+    report.checks.push_back(check);
     if (context.progress) context.progress(double(report.checks.size()) / 9);
+  };
+  for (auto* check : {check_joins, check_centres, check_distances, check_membership, check_coverage, check_crossings,
+                      check_nesting}) {
+    if (context.cancelled()) break;
+    add(check(zone));
   }
+  if (!context.cancelled())
+    for (const Check& check : check_areas(zone)) add(check);
+  if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while checking", "", ""};
   return report;
 }
 

@@ -22,6 +22,7 @@ std::string html_escaped(std::string_view text) {
     if (c == '&') escaped += "&amp;";
     else if (c == '<') escaped += "&lt;";
     else if (c == '>') escaped += "&gt;";
+    else if (c == '"') escaped += "&quot;";
     else escaped += c;
   }
   return escaped;

@@ -76,8 +76,7 @@ class Contraction {
 
   /// True if the ring encloses nothing that the coordinates can tell.
   bool is_thin(const Chain& c) const {
-    const Index e = c.element[c.head];
-    if (c.count == 1) return in_.is_side(e) || in_.sector(in_.vertex_of(e)).before != e;
+    if (c.count == 1) return c.from[c.head] != c.element[c.head] && !is_long(c, c.head);  // all but full circles
     double area = 0, perimeter = 0;
     Index i = c.head;
     do {

@@ -1,0 +1,179 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+
+#include "input/network_reader.hpp"
+#include "krepl/zone.hpp"
+#include "output/atomic_file.hpp"
+#include "output/zone_file.hpp"
+#include "verbs.hpp"
+
+namespace krepl::app {
+
+namespace {
+
+struct BufferOptions {
+  input::NetworkRequest input;
+  std::string output, radius, max_error, format, engine = "auto";
+  bool no_pieces = false, separate = false;
+};
+
+/// What the options mean once they are checked; made before anything is read.
+struct BufferPlan {
+  std::vector<double> radii;
+  output::ZoneFormat format;
+  output::ZoneFileOptions file;
+};
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+Status check_engine(const std::string& engine) {
+  if (engine == "auto" || engine == "intervals") return std::monostate{};
+  bool planned = engine == "voronoi" || engine == "sweep";
+  return Error{ErrorCode::usage, "engine '" + engine + (planned ? "' is not in this version" : "' is unknown"), "",
+               "give --engine auto or intervals"};
+}
+
+Result<BufferPlan> make_plan(const BufferOptions& options) {
+  BufferPlan plan;
+  if (Status engine = check_engine(options.engine); !engine) return engine.error();
+  Result<std::vector<double>> radii = parse_radii(options.radius);
+  if (!radii) return radii.error();
+  plan.radii = *radii;
+  if (!options.max_error.empty()) {
+    Result<double> max_error = parse_positive("--max-error", options.max_error);
+    if (!max_error) return max_error.error();
+    plan.file.max_error = *max_error;
+  }
+  Result<output::ZoneFormat> format = output::find_zone_format(options.output, options.format);
+  if (!format) return Error{format.error().code, options.output + ": " + format.error().what, "", format.error().remedy};
+  plan.format = *format;
+  plan.file.pieces = !options.no_pieces;
+  plan.file.separate = options.separate;
+  return plan;
+}
+
+void tell_cleaning(const input::NetworkData& data, double seconds, Session& session) {
+  const CleaningReport& report = data.network->report();
+  session.detail(fmt::format("read       {:.3f} s: {} features, {} vertices ({} distinct), {} segments", seconds,
+                             data.features, report.input_vertices, data.network->vertices().size(),
+                             data.network->segments().size()));
+  session.detail(fmt::format("cleaning   {} coinciding vertices welded, {} repeated vertices and {} duplicate segments dropped",
+                             report.coinciding_vertices, report.repeated_vertices, report.duplicate_segments));
+}
+
+void tell_counters(const Zone& zone, double seconds, Session& session) {
+  const ZoneCounters& c = zone.counters();
+  session.detail(fmt::format("zone       {:.3f} s: radius {}, {} pieces, {} rings ({} holes), {} polygons", seconds,
+                             zone.radius(), zone.piece_count(), zone.ring_count(), zone.hole_count(), zone.polygon_count()));
+  session.detail(fmt::format("elements   {} examined, {} covered at once, {} cigars met", c.elements, c.covered_at_once,
+                             c.candidates));
+  session.detail(fmt::format("predicates {} decided in double precision, {} in quadruple, {} ties by perturbation",
+                             c.elements_in_double, c.elements_in_quadruple, c.ties_by_perturbation));
+  session.detail(fmt::format("resolution {} pieces collapsed, {} rings dropped", c.collapsed_pieces, c.dropped_rings));
+}
+
+std::string summary_line(const Network& network, const std::vector<Zone>& zones, double seconds) {
+  std::string text = fmt::format("{} segments", network.segments().size());
+  for (const Zone& zone : zones) {
+    std::size_t arcs = 0;
+    for (std::uint32_t e = 0; e < zone.piece_count(); ++e) arcs += zone.piece(e).kind == Zone::Kind::arc ? 1 : 0;
+    text += fmt::format("; radius {}: {} rings, {} holes, {} arcs, area {:.10g}", zone.radius(), zone.ring_count(),
+                        zone.hole_count(), arcs, zone.area());
+  }
+  return text + fmt::format("; {:.3f} s", seconds);
+}
+
+Result<std::vector<Zone>> compute_zones(const input::NetworkData& data, const BufferPlan& plan, Session& session) {
+  std::vector<Zone> zones;
+  for (double radius : plan.radii) {
+    Stopwatch watch;
+    Result<Zone> zone = compute_zone(data.network, {radius}, session.context("computing"));
+    if (!zone) return zone.error();
+    tell_counters(*zone, watch.seconds(), session);
+    zones.push_back(std::move(*zone));
+  }
+  return zones;
+}
+
+/// Fails now rather than after a long computation: tries the place of the result, and leaves nothing there.
+Status check_output(const std::string& path, const std::string& input) {
+  if (output::is_stream_target(path)) return std::monostate{};
+  std::error_code not_there;
+  if (std::filesystem::equivalent(path, input, not_there)) {
+    return Error{ErrorCode::usage, "is the input, which would be lost", "", "name another file for the result"};
+  }
+  Result<output::AtomicFile> file = output::AtomicFile::create(path);
+  if (!file) return file.error();
+  return std::monostate{};
+}
+
+int run_buffer(const BufferOptions& options, Session& session) {
+  Stopwatch total;
+  Result<BufferPlan> plan = make_plan(options);
+  if (!plan) return session.fail("", plan.error());
+  if (Status writable = check_output(options.output, options.input.path); !writable) return session.fail(options.output, writable.error());
+
+  Stopwatch reading;
+  const std::string& in = options.input.path;
+  std::string in_name = in == "-" ? "standard input" : in;
+  Result<input::NetworkData> data = input::read_network(options.input, session.context("reading"));
+  if (!data) return session.fail(in_name, data.error());
+  for (const std::string& note : data->notes) session.note(in_name, note);
+  tell_cleaning(*data, reading.seconds(), session);
+
+  Result<std::vector<Zone>> zones = compute_zones(*data, *plan, session);
+  if (!zones) return session.fail(in_name, zones.error());
+
+  Stopwatch writing;
+  std::string out_name = options.output == "-" ? "standard output" : options.output;
+  plan->file.crs = data->crs;
+  auto report = output::write_zones(options.output, *zones, plan->format, plan->file, session.context("writing"));
+  if (!report) return session.fail(out_name, report.error());
+  for (const std::string& note : report->notes) session.note(out_name, note);
+  if (report->deviation) {
+    session.note(out_name, fmt::format("note: {} has no arcs; the polygons deviate from the true zone by {:.6g} at most",
+                                       plan->format.name, *report->deviation));
+  }
+  session.detail(fmt::format("write      {:.3f} s", writing.seconds()));
+  session.summary(summary_line(*data->network, *zones, total.seconds()), options.output == "-");
+  return 0;
+}
+
+}  // namespace
+
+void add_buffer_verb(CLI::App& program, Session& session) {
+  auto options = std::make_shared<BufferOptions>();
+  CLI::App* verb = program.add_subcommand(
+      "buffer", "Buffer zone of lines, polygons and points, bounded by true arcs");
+  verb->add_option("IN", options->input.path, "Vector file: any OGR format, .wkt (a geometry a line), .wkb, .gz of them, or -")
+      ->required();
+  verb->add_option("OUT", options->output, "Result: .gpkg .fgb .wkt .wkb (curves), .svg .dxf (arcs), .geojson .shp ... (chords), or -")
+      ->required();
+  verb->add_option("--radius", options->radius, "Radius of the disk, in the unit of the coordinates; several give nested zones")
+      ->required()->type_name("R[,R2,...]");
+  verb->add_option("--layer", options->input.layer, "Layer to read")->type_name("NAME");
+  verb->add_option("--where", options->input.where, "Features to read, as SQL: \"class = 'river'\"")->type_name("CONDITION");
+  verb->add_option("--crs", options->input.crs, "Coordinate system of the data, in place of what the file says")
+      ->type_name("EPSG:n");
+  verb->add_option("--to-crs", options->input.to_crs, "Plane coordinate system to project the data to; auto chooses one")
+      ->type_name("EPSG:n|auto");
+  verb->add_option("--format", options->format, "Format of the result, in place of what its extension says")->type_name("NAME");
+  verb->add_option("--max-error", options->max_error, "Formats without arcs: largest deviation (default: radius / 1000)")
+      ->type_name("LENGTH");
+  verb->add_flag("--separate", options->separate, "A feature for each polygon, not for each radius");
+  verb->add_flag("--no-pieces", options->no_pieces, "GeoPackage: no layer of boundary pieces with their origin");
+  verb->add_option("--engine", options->engine, "Algorithm: auto, intervals")->type_name("NAME");
+  session.add_common_options(*verb);
+  session.on_run(*verb, [options, &session] { return run_buffer(*options, session); });
+}
+
+}  // namespace krepl::app

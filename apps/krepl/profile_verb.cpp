@@ -1,0 +1,116 @@
+// krepl profile: 2D terrain (+) disk.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include "input/geometry_source.hpp"
+#include "input/profile_reader.hpp"
+#include "krepl/profile.hpp"
+#include "output/atomic_file.hpp"
+#include "profile_files.hpp"
+#include "verbs.hpp"
+
+namespace krepl::app {
+
+namespace {
+
+struct ProfileOptions {
+  input::TerrainRequest input;
+  std::string output, radius, format;
+};
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+struct Format {
+  Status (*write)(const std::string& path, const Profile&, const Context&);
+};
+
+Result<Format> find_format(const ProfileOptions& options) {
+  std::string name = options.format;
+  if (name.empty()) name = options.output == "-" ? "csv" : input::format_extension(options.output);
+  if (name == "csv") return Format{write_profile_csv};
+  if (name == "svg") return Format{write_profile_svg};
+  const std::string what = name.empty() ? options.output + " has no extension" : "unknown format '" + name + "'";
+  return Error{ErrorCode::usage, what, "", "profiles are written as csv or svg; see --format"};
+}
+
+/// Fails before a long computation rather than after it, and leaves nothing in the result's place.
+Status check_target(const ProfileOptions& options) {
+  if (output::is_stream_target(options.output)) return std::monostate{};
+  std::error_code not_there;
+  if (std::filesystem::equivalent(options.output, options.input.path, not_there))
+    return Error{ErrorCode::usage, "is the input, which would be lost", "", "name another file for the result"};
+  Result<output::AtomicFile> file = output::AtomicFile::create(options.output);
+  if (!file) return file.error();
+  return std::monostate{};
+}
+
+void tell(const Profile& profile, double seconds, Session& session) {
+  const ProfileCounters& c = profile.counters;
+  session.detail(fmt::format("profile    {:.3f} s: {} segments of positive length, {} pieces hidden by later ones, {} at once on the stack",
+                             seconds, c.segments, c.pops, c.largest_stack));
+  session.detail(fmt::format("predicates {} decided with twice the digits, {} of them ties; {} segments repeated between blocks",
+                             c.in_double_double, c.ties, c.replayed_segments));
+  session.detail(fmt::format("resolution {} pieces collapsed", c.collapsed_pieces));
+}
+
+std::string summary_line(const Profile& profile, double seconds) {
+  std::size_t arcs = 0;
+  for (const ProfilePiece& piece : profile.pieces) arcs += piece.kind == ProfilePiece::Kind::arc;
+  const ProfileVertexCounts vertices = count_profile_vertices(profile.terrain, profile.pieces);
+  return fmt::format("{} points; {} pieces, {} of them arcs; {} vertices, {} explicit; {:.3f} s", profile.terrain.size(),
+                     profile.pieces.size(), arcs, vertices.all, vertices.explicit_ones, seconds);
+}
+
+int run_profile(const ProfileOptions& options, Session& session) {
+  const Clock::time_point start = Clock::now();
+  const Result<double> radius = parse_radius(options.radius);
+  if (!radius) return session.fail("", radius.error());
+  const Result<Format> format = find_format(options);
+  if (!format) return session.fail("", format.error());
+  if (Status target = check_target(options); !target) return session.fail(options.output, target.error());
+
+  const std::string in_name = options.input.path == "-" ? "standard input" : options.input.path;
+  const std::string out_name = options.output == "-" ? "standard output" : options.output;
+  Result<input::TerrainData> data = input::read_terrain(options.input, session.context("reading"));
+  if (!data) return session.fail(in_name, data.error());
+  for (const std::string& note : data->notes) session.note(in_name, note);
+  session.detail(fmt::format("read       {:.3f} s: {} points", seconds_since(start), data->points.size()));
+
+  const Clock::time_point computing = Clock::now();
+  const Result<Profile> profile = compute_profile(std::move(data->points), *radius, session.context("computing"));
+  if (!profile) return session.fail(in_name, profile.error());
+  tell(*profile, seconds_since(computing), session);
+
+  const Clock::time_point writing = Clock::now();
+  if (Status written = format->write(options.output, *profile, session.context("writing")); !written)
+    return session.fail(out_name, written.error());
+  session.detail(fmt::format("write      {:.3f} s", seconds_since(writing)));
+  session.summary(summary_line(*profile, seconds_since(start)), options.output == "-");
+  return 0;
+}
+
+}  // namespace
+
+void add_profile_verb(CLI::App& program, Session& session) {
+  auto options = std::make_shared<ProfileOptions>();
+  CLI::App* verb = program.add_subcommand("profile", "Path of a disk's centre over a 2D terrain, bounded by true arcs");
+  verb->add_option("IN", options->input.path, "Terrain: .csv with columns x and z, a line in a vector file, or - (CSV)")
+      ->required();
+  verb->add_option("OUT", options->output, "Result: .csv (a row a piece), .svg, or - (CSV)")->required();
+  verb->add_option("--radius", options->radius, "Radius of the disk, in the unit of the coordinates")
+      ->required()->type_name("R");
+  verb->add_option("--layer", options->input.layer, "Vector files: layer to read")->type_name("NAME");
+  verb->add_option("--where", options->input.where, "Vector files: the feature to read, as SQL: \"id = 7\"")
+      ->type_name("CONDITION");
+  verb->add_option("--format", options->format, "Format of the result, csv or svg, in place of what its extension says")
+      ->type_name("NAME");
+  session.add_common_options(*verb);
+  session.on_run(*verb, [options, &session] { return run_profile(*options, session); });
+}
+
+}  // namespace krepl::app

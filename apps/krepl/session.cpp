@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "interrupt.hpp"
+#include "verbs.hpp"
+
+namespace krepl::app {
+
+Session::Session() : interrupted_(watch_for_interrupts()), terminal_(isatty(STDERR_FILENO) != 0) {}
+Session::~Session() { finish_progress(); }
+
+void Session::add_common_options(CLI::App& verb) {
+  verb.add_option("--threads", threads, "Number of threads (default: all that the machine has)")
+      ->check(CLI::Range(1u, 4096u))->type_name("N");
+  auto* q = verb.add_flag("--quiet", quiet, "Print errors only");
+  verb.add_flag("--verbose", verbose, "Print counters, what cleaning changed, and times")->excludes(q);
+}
+
+void Session::on_run(CLI::App& verb, std::function<int()> work) {
+  verb.callback([this, work = std::move(work)] { work_ = work; });
+}
+
+int Session::run() {
+  int status = work_ ? work_() : 2;
+  finish_progress();
+  return status;
+}
+
+Context Session::context(std::string_view activity) {
+  Context context;
+  context.threads = threads;
+  context.cancel = &interrupted_;
+  if (terminal_ && !quiet) {
+    drawn_percent_ = -1;
+    context.progress = [this, label = std::string(activity)](double fraction) { draw_progress(label, fraction); };
+  }
+  return context;
+}
+
+void Session::draw_progress(std::string_view activity, double fraction) {
+  constexpr int width = 40;
+  int percent = static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0));
+  if (percent == drawn_percent_) return;
+  drawn_percent_ = percent;
+  std::string done(static_cast<std::size_t>(percent * width / 100), '#');
+  fmt::print(stderr, "\r{:<10} [{:<{}}] {:3} %", activity, done, width, percent);
+  std::fflush(stderr);
+}
+
+void Session::finish_progress() {
+  if (drawn_percent_ < 0) return;
+  drawn_percent_ = -1;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+}
+
+bool Session::interrupted() const { return interrupted_.load(std::memory_order_relaxed); }
+
+void Session::note(std::string_view file, std::string_view text) {
+  if (quiet) return;
+  finish_progress();
+  fmt::print(stderr, "krepl: {}{}{}\n", file, file.empty() ? "" : ": ", text);
+}
+
+void Session::detail(std::string_view text) {
+  if (!verbose) return;
+  finish_progress();
+  fmt::print(stderr, "{}\n", text);
+}
+
+void Session::summary(std::string_view text, bool result_on_stdout) {
+  if (quiet) return;
+  finish_progress();
+  fmt::print(result_on_stdout ? stderr : stdout, "{}\n", text);
+}
+
+int Session::fail(std::string_view file, const Error& error) {
+  finish_progress();
+  fmt::print(stderr, "krepl: {}{}{}\n", file, file.empty() ? "" : ": ", error.text());
+  if (interrupted() || error.code == ErrorCode::cancelled) return interrupted_status;
+  return error.code == ErrorCode::usage ? 2 : 1;
+}
+
+Result<double> parse_positive(std::string_view option, std::string_view text) {
+  auto usage = [&](std::string_view what) {
+    return Error{ErrorCode::usage, fmt::format("{} '{}' {}", option, text, what), "",
+                 "give a finite number greater than zero, in the unit of the coordinates"};
+  };
+  double value = 0;
+  std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
+  auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (status == std::errc::result_out_of_range) return usage("is out of the range of numbers");
+  if (status != std::errc{} || end != digits.data() + digits.size()) return usage("is not a number");
+  if (!std::isfinite(value)) return usage("is not finite");
+  if (value == 0) return usage("is zero");
+  if (value < 0) return usage("is negative");
+  return value;
+}
+
+Result<double> parse_radius(std::string_view text) { return parse_positive("--radius", text); }
+
+Result<std::vector<double>> parse_radii(std::string_view text) {
+  std::vector<double> radii;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    std::size_t end = std::min(text.find(',', begin), text.size());
+    Result<double> radius = parse_radius(text.substr(begin, end - begin));
+    if (!radius) return radius.error();
+    radii.push_back(*radius);
+    begin = end + 1;
+  }
+  return radii;
+}
+
+}  // namespace krepl::app

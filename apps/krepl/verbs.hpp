@@ -1,0 +1,86 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "krepl/context.hpp"
+#include "krepl/error.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace krepl::app {
+
+/// What all verbs of one run share: the common options, how to talk to the user, and what to do after parsing.
+///
+/// A verb is added by a function that declares its options, and gives its work to `on_run`; the work starts after the
+/// whole command line has been accepted and returns the exit status:
+///
+///     void add_thing_verb(CLI::App& program, Session& session) {
+///       auto options = std::make_shared<ThingOptions>();
+///       CLI::App* verb = program.add_subcommand("thing", "What it does");
+///       verb->add_option("IN", options->input, "Input file")->required();
+///       session.add_common_options(*verb);
+///       session.on_run(*verb, [options, &session] { return run_thing(*options, session); });
+///     }
+class Session {
+ public:
+  Session();
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  unsigned threads = 0;  ///< --threads; 0: all
+  bool quiet = false;    ///< --quiet: errors only
+  bool verbose = false;  ///< --verbose: counters, cleaning report, times
+
+  /// Declares --threads, --quiet and --verbose.
+  void add_common_options(CLI::App& verb);
+  /// Registers the work of a verb.
+  void on_run(CLI::App& verb, std::function<int()> work);
+  /// The registered work of the verb that was given; called once by main.
+  int run();
+
+  /// For a long computation: the threads asked for, a progress bar (only on a terminal and without --quiet) labelled
+  /// `activity`, and the flag that Ctrl-C sets. The bar goes away with the next message or finish_progress().
+  Context context(std::string_view activity);
+  void finish_progress();
+  /// True after Ctrl-C.
+  bool interrupted() const;
+
+  /// `krepl: FILE: TEXT` on standard error; nothing with --quiet. An empty file name is left out.
+  void note(std::string_view file, std::string_view text);
+  /// A line on standard error, with --verbose only.
+  void detail(std::string_view text);
+  /// The short line at the end, on standard output (on standard error if the result itself goes there); nothing with
+  /// --quiet.
+  void summary(std::string_view text, bool result_on_stdout = false);
+  /// `krepl: FILE: what, where; remedy` on standard error, always. Returns the exit status: 2 for usage, 130 after Ctrl-C,
+  /// otherwise 1. An empty file name is left out.
+  int fail(std::string_view file, const Error& error);
+
+ private:
+  void draw_progress(std::string_view activity, double fraction);
+  const std::atomic<bool>& interrupted_;
+  std::function<int()> work_;
+  bool terminal_ = false;
+  int drawn_percent_ = -1;
+};
+
+/// One or more radii separated by commas, each finite and positive; an Error of code usage names what is wrong.
+Result<std::vector<double>> parse_radii(std::string_view text);
+/// Exactly one radius, finite and positive.
+Result<double> parse_radius(std::string_view text);
+/// A finite positive number for the option `option`, as `--max-error`.
+Result<double> parse_positive(std::string_view option, std::string_view text);
+
+void add_buffer_verb(CLI::App& program, Session& session);
+void add_profile_verb(CLI::App& program, Session& session);
+void add_verify_verb(CLI::App& program, Session& session);
+void add_view_verb(CLI::App& program, Session& session);
+
+}  // namespace krepl::app

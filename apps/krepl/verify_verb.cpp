@@ -1,0 +1,187 @@
+// krepl verify: re-checks a result against its input by brute force.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "input/geometry_source.hpp"
+#include "input/profile_reader.hpp"
+#include "input/result_file.hpp"
+#include "verbs.hpp"
+#include "verify/input_parts.hpp"
+#include "verify/profile_verifier.hpp"
+#include "verify/zone_verifier.hpp"
+
+namespace krepl::app {
+
+namespace {
+
+struct VerifyOptions {
+  std::string result;
+  verify::InputRequest input;
+  std::string radius, max_error;
+  std::uint64_t samples = 0;
+};
+
+/// Polygons by radius: a file may hold several zones, and a zone may be spread over several features.
+using ZonesByRadius = std::map<double, std::vector<input::ResultPolygon>>;
+
+Result<ZonesByRadius> group(std::vector<input::ResultZone> zones, const std::vector<double>& asked) {
+  ZonesByRadius groups;
+  for (input::ResultZone& zone : zones) {
+    if (!zone.radius && asked.size() != 1)
+      return Error{ErrorCode::usage, "the result does not tell its radius", "", "give one with --radius"};
+    const double radius = zone.radius.value_or(asked.empty() ? 0 : asked[0]);
+    if (!asked.empty() && std::find(asked.begin(), asked.end(), radius) == asked.end())
+      return Error{ErrorCode::input,
+                   fmt::format("the result holds a zone of radius {}, which --radius does not name", radius), "",
+                   "give the radius that the result was made with"};
+    auto& polygons = groups[radius];
+    std::move(zone.polygons.begin(), zone.polygons.end(), std::back_inserter(polygons));
+  }
+  for (const double radius : asked)
+    if (!groups.contains(radius))
+      return Error{ErrorCode::input, fmt::format("the result holds no zone of radius {}", radius), "",
+                   "check --radius"};
+  return groups;
+}
+
+void print(Session& session, const std::vector<verify::Check>& checks) {
+  session.summary(
+      fmt::format("{:<28} {:>9} {:>7} {:>10} {:>10}  {}", "check", "tested", "wrong", "worst", "allowed", "worst at"));
+  for (const verify::Check& check : checks) {
+    const bool placed = check.worst > 0 && check.name.find("area") == std::string::npos;
+    std::string last = placed ? fmt::format("{:.12g} {:.12g}", check.where.x, check.where.y) : "";
+    if (!check.note.empty()) last += (last.empty() ? "" : "; ") + check.note;
+    session.summary(fmt::format("{:<28} {:>9} {:>7} {:>10.3g} {:>10.3g}  {}", check.name, check.tested,
+                                check.violations, check.worst, check.limit, last));
+  }
+}
+
+void print(Session& session, const verify::ZoneReport& report) {
+  session.summary(fmt::format("zone of radius {}: {} polygons, {} holes, {} pieces, {} of them arcs", report.radius,
+                              report.polygons, report.holes, report.pieces, report.arcs));
+  session.summary(fmt::format("area {:.15g}, length {:.15g}, S {:.6g}, tolerance {:.2g}", report.area, report.perimeter,
+                              report.scale, report.tolerance));
+  print(session, report.checks);
+}
+
+void print(Session& session, const verify::ProfileReport& report) {
+  session.summary(
+      fmt::format("profile of radius {}: {} segments in, {} pieces out, {} of them arcs, {} explicit vertices",
+                  report.radius, report.segments, report.pieces, report.arcs, report.explicit_vertices));
+  session.summary(fmt::format("S {:.6g}, tolerance {:.2g}", report.scale, report.tolerance));
+  print(session, report.checks);
+}
+
+/// "is not the WHAT of radius R: names of the broken checks, near X Y".
+Error violation(const char* what, double radius, const std::vector<verify::Check>& checks) {
+  Error error{ErrorCode::computation, "", "", ""};
+  for (const verify::Check& check : checks) {
+    if (check.ok()) continue;
+    if (!error.what.empty()) error.what += ", ";
+    error.what += check.name;
+    if (error.where.empty()) error.where = fmt::format("near {:.12g} {:.12g}", check.where.x, check.where.y);
+  }
+  error.what = fmt::format("is not the {} of radius {}: {}", what, radius, error.what);
+  return error;
+}
+
+int verify_zones(const VerifyOptions& options, Session& session) {
+  std::vector<double> radii;
+  if (!options.radius.empty()) {
+    auto parsed = parse_radii(options.radius);
+    if (!parsed) return session.fail("", parsed.error());
+    radii = std::move(*parsed);
+  }
+  verify::ZoneCheckOptions check;
+  check.samples = options.samples;
+  if (!options.max_error.empty()) {
+    auto parsed = parse_positive("--max-error", options.max_error);
+    if (!parsed) return session.fail("", parsed.error());
+    check.max_error = *parsed;
+  }
+  auto zones = input::read_zones(options.result);
+  if (!zones) return session.fail(options.result, zones.error());
+  auto groups = group(std::move(*zones), radii);
+  if (!groups) return session.fail(options.result, groups.error());
+  if (groups->empty()) return session.fail(options.result, {ErrorCode::input, "holds no zone", "", ""});
+  auto parts = verify::read_parts(options.input, session.context("reading"));
+  session.finish_progress();
+  if (!parts) return session.fail(options.input.path, parts.error());
+
+  const verify::Obstacle obstacle(*parts);
+  int status = 0;
+  for (const auto& [radius, polygons] : *groups) {
+    check.radius = radius;
+    auto report = verify::check_zone(polygons, obstacle, check, session.context("checking"));
+    session.finish_progress();
+    if (!report) return session.fail(options.result, report.error());
+    print(session, *report);
+    if (report->ok()) continue;
+    Error error = violation("zone", radius, report->checks);
+    if (report->arcs == 0 && check.max_error == 0) error.remedy = "for a format without arcs give --max-error";
+    status = session.fail(options.result, error);
+  }
+  if (status == 0) session.summary("sound: every check passed");
+  return status;
+}
+
+int verify_profile(const VerifyOptions& options, Session& session) {
+  if (options.radius.empty())
+    return session.fail(options.result,
+                        {ErrorCode::usage, "a profile does not tell its radius", "", "give it with --radius"});
+  auto radius = parse_radius(options.radius);
+  if (!radius) return session.fail("", radius.error());
+  auto pieces = input::read_profile(options.result);
+  if (!pieces) return session.fail(options.result, pieces.error());
+  auto terrain =
+      input::read_terrain({options.input.path, options.input.layer, options.input.where}, session.context("reading"));
+  session.finish_progress();
+  if (!terrain) return session.fail(options.input.path, terrain.error());
+
+  verify::ProfileCheckOptions check;
+  check.radius = *radius, check.heights = options.samples;
+  auto report = verify::check_profile(terrain->points, *pieces, check, session.context("checking"));
+  session.finish_progress();
+  if (!report) return session.fail(options.result, report.error());
+  print(session, *report);
+  if (!report->ok()) return session.fail(options.result, violation("profile", *radius, report->checks));
+  session.summary("sound: every check passed");
+  return 0;
+}
+
+int run_verify(const VerifyOptions& options, Session& session) {
+  return input::format_extension(options.result) == "csv" ? verify_profile(options, session)
+                                                          : verify_zones(options, session);
+}
+
+}  // namespace
+
+void add_verify_verb(CLI::App& program, Session& session) {
+  auto options = std::make_shared<VerifyOptions>();
+  CLI::App* verb = program.add_subcommand("verify", "Re-check a result against its input by independent brute force");
+  verb->add_option("RESULT", options->result, "Zone (vector file) or profile (.csv) to check")->required();
+  verb->add_option("--against", options->input.path, "The input that the result was made from")
+      ->required()
+      ->type_name("IN");
+  verb->add_option("--radius", options->radius, "Radius or radii; may be left out where the result tells them")
+      ->type_name("R");
+  verb->add_option("--layer", options->input.layer, "Layer of the input")->type_name("NAME");
+  verb->add_option("--where", options->input.where, "Condition on the input's fields (OGR SQL)")->type_name("SQL");
+  verb->add_option("--crs", options->input.crs, "Coordinate system of the input, in place of its own")
+      ->type_name("CRS");
+  verb->add_option("--to-crs", options->input.to_crs, "Projection that the result was made with")
+      ->type_name("CRS|auto");
+  verb->add_option("--samples", options->samples,
+                   "Number of points whose membership is tested (default: some seconds' worth)")
+      ->type_name("N");
+  verb->add_option("--max-error", options->max_error, "Deviation allowed to a format without arcs (default: none)")
+      ->type_name("E");
+  session.add_common_options(*verb);
+  session.on_run(*verb, [options, &session] { return run_verify(*options, session); });
+}
+
+}  // namespace krepl::app

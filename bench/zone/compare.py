@@ -1,0 +1,183 @@
+#!/usr/bin/env python3
+"""Runs zone_case over data, radii and engines, each case in a process of its own with a time limit, and writes the tables
+of bench/README.md: krepl beside its peers on one thread, how far their answers are from krepl's, and growth with n.
+"""
+import argparse
+import itertools
+import json
+import os
+import platform
+import resource
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+FILES = ["streets_tempe", "roads_roxel_epsg32632_mm", "river_new_hope_epsg32617_mm", "river_methow",
+         "roads_monaco_epsg32632_mm", "ne_10m_rivers_europe_epsg3035_m"]
+RADII = [1, 10, 100]
+PEERS = [("geos", 1e-3), ("geos", 1e-6), ("clipper", 1e-3), ("clipper", 1e-6), ("boost", 1e-3)]
+NAMES = {"krepl": "krepl", "geos": "GEOS", "clipper": "Clipper", "boost": "Boost"}
+BOOST_LIMIT = 20_000  # vertices; above, Boost never finishes within the time limit
+
+
+def run_case(program, limit, engine, path, segments, radius, chord, threads):
+    """The measurement, or {"failed": why, "seconds": ..., "peak": bytes}."""
+    arguments = [str(program), engine, str(path), str(segments), repr(radius), repr(chord), str(threads)]
+    most = int(0.85 * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    child = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (most, most)))
+    late = threading.Event()
+    timer = threading.Timer(limit, lambda: (late.set(), child.kill()))
+    timer.start()
+    output, complaint = child.stdout.read(), child.stderr.read()
+    _, status, usage = os.wait4(child.pid, 0)
+    timer.cancel()
+    child.returncode = os.waitstatus_to_exitcode(status)
+    peak = 1024 * usage.ru_maxrss
+    if child.returncode == 0:
+        return {**json.loads(output), "peak": peak}
+    reason = f"> {limit:g} s" if late.is_set() else "failed"
+    print(f"    {reason}: {complaint.strip()}", file=sys.stderr)
+    return {"failed": reason, "peak": peak}
+
+
+class Bench:
+    def __init__(self, arguments):
+        self.program, self.limit = arguments.program.resolve(), arguments.limit
+        self.log = open(arguments.log, "w")
+
+    def case(self, engine, path, radius, chord=1e-3, segments=0, threads=1):
+        print(f"  {engine:8} {path.stem:34} n={segments or 'all':>8} R={radius:<4g} chord={chord:g} threads={threads}",
+              file=sys.stderr, flush=True)
+        result = run_case(self.program, self.limit, engine, path, segments, radius, chord, threads)
+        record = {"engine": engine, "data": path.stem, "radius_lengths": radius, "chord": chord, "threads": threads}
+        self.log.write(json.dumps({**record, **result}) + "\n")
+        self.log.flush()
+        return result
+
+
+def cell(result, own=None):
+    """Microseconds per input vertex (peak MB of the operation), and how many times krepl's time."""
+    if result is None:
+        return "–"
+    if "failed" in result:
+        return f"{result['failed']} ({result['peak'] / 1e6:.0f})"
+    text = f"{1e6 * result['cpu'] / result['vertices']:.3g} ({result['bytes'] / 1e6:.0f})"
+    return text + (f" ×{result['cpu'] / own['cpu']:.3g}" if own and "cpu" in own else "")
+
+
+def difference(result, own):
+    """Relative difference of the area from krepl's, and the number of holes."""
+    if result is None or "failed" in result or "failed" in own:
+        return "–"
+    return f"{result['area'] / own['area'] - 1:+.1e}, {result['holes']}"
+
+
+def vertices(path):
+    """Of a WKT or GMT text."""
+    with open(path) as lines:  # line by line: a child's peak memory starts from this process's
+        first = next(lines)
+        if first.startswith(">"):
+            return sum(not line.startswith(">") for line in lines)
+        return sum(line.count(",") + line.count("(") for line in itertools.chain([first], lines))
+
+
+def growth_row(radius, size, one, two):
+    if "failed" in one or "failed" in two:
+        return [f"×{radius}", f"{size:,}", one.get("failed", ""), two.get("failed", ""), "", "", ""]
+    return [f"×{radius}", f"{size:,}", f"{1e6 * one['wall'] / size:.3f}", f"{1e6 * two['wall'] / size:.3f}",
+            f"{one['wall'] / two['wall']:.2f}", f"{one['bytes'] / size:.0f}", f"{two['bytes'] / size:.0f}"]
+
+
+def compare(bench, paths):
+    speed, answers = [], []
+    for path in paths:
+        given_up, count = set(), vertices(path)
+        for radius in RADII:
+            own = bench.case("krepl", path, radius)
+            results = {}
+            for engine, chord in PEERS:
+                # GEOS at the coarse chord is always run; the others not again where they were hopeless already.
+                hopeless = any(e == engine and c >= chord for e, c in given_up) and (engine, chord) != ("geos", 1e-3)
+                if hopeless or (engine == "boost" and count > BOOST_LIMIT):
+                    results[engine, chord] = None
+                    continue
+                results[engine, chord] = bench.case(engine, path, radius, chord)
+                if "failed" in results[engine, chord]:
+                    given_up.add((engine, chord))
+            name = f"{path.stem} ({count:,})" if radius == RADII[0] else ""
+            speed.append([name, f"×{radius}", cell(own), *(cell(results[p], own) for p in PEERS)])
+            answers.append([name, f"×{radius}", "failed" if "failed" in own else f"{own['area']:.9g}, {own['holes']}",
+                            *(difference(results[p], own) for p in PEERS)])
+    return speed, answers
+
+
+def growth(bench, path, sizes):
+    rows = []
+    for radius in RADII:
+        for size in sizes:
+            one = bench.case("krepl", path, radius, segments=size)
+            two = bench.case("krepl", path, radius, segments=size, threads=2)
+            rows.append(growth_row(radius, size, one, two))
+    return rows
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def machine():
+    model = next((l.split(":", 1)[1].strip() for l in open("/proc/cpuinfo") if l.startswith("model name")), "unknown")
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    versions = []
+    for package in ("libgeos-dev", "libpolyclipping-dev", "libboost-dev", "g++", "libtbb-dev"):
+        query = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version}", package], capture_output=True, text=True)
+        versions.append(query.stdout or f"{package}: not from Debian")
+    return (f"Machine: {model}, {os.cpu_count()} logical cores, {memory:.0f} GiB, {platform.system()} {platform.release()}; "
+            f"load at the start {os.getloadavg()[0]:.1f}. {'; '.join(versions)}.")
+
+
+def write_tables(out, about, speed, answers, grown, limit):
+    peers = [f"{NAMES[engine]} {chord:g} R" for engine, chord in PEERS]
+    out.write(f"{about}\n\n")
+    if speed:
+        out.write("Microseconds of CPU time per input vertex on one thread, the operation alone (peak memory of the operation, "
+                  f"MB), × = times krepl's; – = not run, a smaller radius or coarser chord already took over {limit:g} s "
+                  f"or (Boost) over {BOOST_LIMIT:,} vertices.\n\n")
+        out.write(table(["data (vertices)", "R in mean lengths", "krepl, true arcs", *peers], speed) + "\n\n")
+        out.write("Do they answer the same question? Area and holes; for the peers the relative difference from krepl's area.\n\n")
+        out.write(table(["data (vertices)", "R in mean lengths", "krepl: area, holes", *peers], answers) + "\n\n")
+    if grown:
+        out.write("Growth: the world's rivers cut or repeated to n segments, wall time; bytes are the peak of the operation.\n\n")
+        out.write(table(["R in mean lengths", "segments", "µs/segment, 1 thread", "2 threads", "speed-up",
+                         "bytes/segment, 1 thread", "2 threads"], grown) + "\n")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--program", type=Path, required=True, help="the built zone_case")
+    parser.add_argument("--data", type=Path, required=True, help="directory of WKT files")
+    parser.add_argument("--world", type=Path, help="GMT text of the world's rivers")
+    parser.add_argument("--limit", type=float, default=120, help="seconds a case may take (default: 120)")
+    parser.add_argument("--sizes", default="100000,1000000,10000000", help="segments of the growth table")
+    parser.add_argument("--only", default="compare,growth", help="which tables to make")
+    parser.add_argument("--log", type=Path, required=True, help="every measurement as a line of JSON")
+    parser.add_argument("--output", type=Path, required=True, help="the tables in Markdown")
+    arguments = parser.parse_args()
+    about, bench = machine(), Bench(arguments)
+    paths = [p for p in (arguments.data / f"{name}.wkt" for name in FILES) if p.exists()]
+    for name in sorted(set(FILES) - {p.stem for p in paths}):
+        print(f"compare.py: {name} is not in {arguments.data} and left out", file=sys.stderr)
+    speed = answers = grown = []
+    if "compare" in arguments.only:
+        speed, answers = compare(bench, paths + ([arguments.world] if arguments.world else []))
+    if "growth" in arguments.only and arguments.world:
+        grown = growth(bench, arguments.world, [int(size) for size in arguments.sizes.split(",")])
+    with open(arguments.output, "w") as out:
+        write_tables(out, about, speed, answers, grown, arguments.limit)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,37 @@
+# bash completion for krepl
+
+_krepl() {
+  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
+  local verbs="buffer profile verify view" verb= word
+  for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
+    case " $verbs " in *" $word "*) verb=$word; break ;; esac
+  done
+  COMPREPLY=()
+  if [[ -z $verb ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$verbs --help --version" -- "$current")
+    return
+  fi
+  case $previous in
+    --format) mapfile -t COMPREPLY < <(compgen -W "gpkg fgb wkt wkb geojson shp svg dxf" -- "$current"); return ;;
+    --engine) mapfile -t COMPREPLY < <(compgen -W "auto intervals" -- "$current"); return ;;
+    --to-crs) mapfile -t COMPREPLY < <(compgen -W "auto EPSG:" -- "$current"); return ;;
+    --crs) mapfile -t COMPREPLY < <(compgen -W "EPSG:" -- "$current"); return ;;
+    --layer)  # the layers of the input, which is the first word after the verb that is a file
+      for word in "${COMP_WORDS[@]:2}"; do
+        [[ -f $word ]] || continue
+        mapfile -t COMPREPLY < <(compgen -W "$(ogrinfo -q -ro "$word" 2>/dev/null | sed -E 's/^[0-9]+: //; s/ \(.*//')" -- "$current")
+        return
+      done
+      return ;;
+    --radius | --where | --max-error | --threads | --samples) return ;;
+  esac
+  if [[ $current == -* ]]; then
+    # The program itself knows its options, so that the two cannot disagree.
+    mapfile -t COMPREPLY < <(compgen -W "$("${COMP_WORDS[0]}" "$verb" --help 2>/dev/null |
+      grep -Eo -- '(^|[ ,])--?[a-z][a-z-]*' | tr -d ' ,')" -- "$current")
+    return
+  fi
+  mapfile -t COMPREPLY < <(compgen -f -- "$current")
+}
+
+complete -o filenames -o bashdefault -F _krepl krepl

@@ -1,0 +1,141 @@
+#include "support/zone_case.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+
+#include "verify/obstacle.hpp"
+
+namespace krepl::test {
+
+namespace {
+
+std::string coordinates(const std::vector<Point>& vertices, bool close) {
+  std::string t = "(";
+  char buffer[64];
+  const auto add = [&](Point p) {
+    std::snprintf(buffer, sizeof buffer, "%s%.17g %.17g", t.size() > 1 ? ", " : "", p.x, p.y);
+    t += buffer;
+  };
+  for (const Point& p : vertices) add(p);
+  if (close && !vertices.empty() && !(vertices.front() == vertices.back())) add(vertices.front());
+  return t + ")";
+}
+
+}  // namespace
+
+std::string text(const ZoneCase& c) {
+  std::string t = "GEOMETRYCOLLECTION (";
+  for (std::size_t i = 0; i < c.parts.size(); ++i) {
+    if (i > 0) t += ", ";
+    const InputPart& part = c.parts[i];
+    if (part.ring) {
+      t += "POLYGON (" + coordinates(part.vertices, true);
+      for (; i + 1 < c.parts.size() && c.parts[i + 1].ring && c.parts[i + 1].feature == part.feature; ++i)
+        t += ", " + coordinates(c.parts[i + 1].vertices, true);
+      t += ")";
+    } else {
+      t += (part.vertices.size() == 1 ? "POINT " : "LINESTRING ") + coordinates(part.vertices, false);
+    }
+  }
+  char radius[40];
+  std::snprintf(radius, sizeof radius, ") R = %.17g", c.radius);
+  return t + radius;
+}
+
+InputPart line(std::vector<Point> vertices) { return {std::move(vertices), false, -1}; }
+InputPart ring(std::vector<Point> vertices, std::int64_t feature) { return {std::move(vertices), true, feature}; }
+InputPart point(double x, double y) { return {{{x, y}}, false, -1}; }
+
+Result<Network> network_of(const ZoneCase& c, const Context& context) {
+  Network::Builder builder;
+  for (const InputPart& part : c.parts) {
+    if (part.ring)
+      builder.add_ring(part.vertices, part.feature);
+    else if (part.vertices.size() == 1)
+      builder.add_point(part.vertices[0], part.feature);
+    else
+      builder.add_line(part.vertices, part.feature);
+  }
+  return std::move(builder).build(context);
+}
+
+Result<Zone> zone_of(const ZoneCase& c, const Context& context) {
+  Result<Network> network = network_of(c, context);
+  if (!network) return network.error();
+  return compute_zone(std::make_shared<const Network>(std::move(network).value()), ZoneOptions{c.radius}, context);
+}
+
+namespace {
+
+input::ResultPiece plain(const Zone::Piece& piece) {
+  input::ResultPiece p;
+  p.start = piece.start, p.end = piece.end;
+  p.arc = piece.kind == Zone::Kind::arc;
+  if (!p.arc) return p;
+  using Real = long double;
+  const Real ux = Real(piece.start.x) - piece.center.x, uy = Real(piece.start.y) - piece.center.y;
+  const Real vx = Real(piece.end.x) - piece.center.x, vy = Real(piece.end.y) - piece.center.y;
+  constexpr Real two_pi = 6.283185307179586476925286766559005768L;
+  Real sweep = std::atan2(ux * vy - uy * vx, ux * vx + uy * vy);
+  if (sweep < 0) sweep += two_pi;
+  if (piece.start == piece.end) sweep = two_pi;
+  const Real c = std::cos(sweep / 2), s = std::sin(sweep / 2);
+  p.middle = {double(piece.center.x + c * ux - s * uy), double(piece.center.y + s * ux + c * uy)};
+  return p;
+}
+
+}  // namespace
+
+std::vector<input::ResultPolygon> plain(const Zone& zone) {
+  const auto ring_of = [&](std::uint32_t r) {
+    input::ResultRing ring;
+    for (std::uint32_t e = zone.ring_begin(r); e < zone.ring_begin(r + 1); ++e)
+      ring.pieces.push_back(plain(zone.piece(e)));
+    return ring;
+  };
+  std::vector<input::ResultPolygon> polygons;
+  for (std::uint32_t p = 0; p < zone.polygon_count(); ++p) {
+    const Zone::Polygon polygon = zone.polygon(p);
+    polygons.push_back({ring_of(polygon.outer), {}});
+    for (const std::uint32_t hole : polygon.holes) polygons.back().holes.push_back(ring_of(hole));
+  }
+  return polygons;
+}
+
+std::optional<std::string> fault_in(const Zone& zone, const ZoneCase& c, double effort) {
+  if (const auto wrong = zone.validate()) return "not valid: " + *wrong;
+  verify::ZoneCheckOptions options;
+  options.radius = c.radius, options.effort = effort;
+  const verify::Obstacle obstacle(c.parts);
+  const auto report = verify::check_zone(plain(zone), obstacle, options, Context{1, {}, nullptr});
+  if (!report) return "not checked: " + report.error().text();
+  for (const verify::Check& check : report->checks) {
+    if (check.ok()) continue;
+    char buffer[300];
+    std::snprintf(buffer, sizeof buffer, "%s: %llu of %llu wrong, worst %.3g (allowed %.3g) at (%.17g, %.17g) %s",
+                  check.name.c_str(), (unsigned long long)check.violations, (unsigned long long)check.tested,
+                  check.worst, check.limit, check.where.x, check.where.y, check.note.c_str());
+    return buffer;
+  }
+  // Written coordinates are rounded, by half a step an end.
+  const double step = double(obstacle.resolution());
+  if (!(std::abs(zone.area() - report->area) <= 1e-9 * report->area + 2 * step * report->perimeter))
+    return "Zone::area() differs from the area of its pieces";
+  if (!(std::abs(zone.perimeter() - report->perimeter) <=
+        1e-9 * report->perimeter + 4 * step * double(zone.piece_count())))
+    return "Zone::perimeter() differs from the length of its pieces";
+  return std::nullopt;
+}
+
+std::optional<std::string> fault_in(const ZoneCase& c, double effort) {
+  const Result<Zone> zone = zone_of(c);
+  if (!zone) return "no zone: " + zone.error().text();
+  return fault_in(*zone, c, effort);
+}
+
+std::ostream& operator<<(std::ostream& out, const RingCounts& c) {
+  return out << c.outer << " outer rings, " << c.holes << " holes";
+}
+
+}  // namespace krepl::test

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "krepl/zone.hpp"
+#include "verify/zone_verifier.hpp"
+
+namespace krepl::test {
+
+using verify::InputPart;
+
+/// An input of a zone and its radius, for tests; can be written down and read again as text.
+struct ZoneCase {
+  std::vector<InputPart> parts;
+  double radius = 1;
+};
+
+/// The parts as one GEOMETRYCOLLECTION with 17 digits, and the radius: enough to repeat the case.
+std::string text(const ZoneCase& c);
+inline std::ostream& operator<<(std::ostream& out, const ZoneCase& c) { return out << text(c); }
+
+InputPart line(std::vector<Point> vertices);
+InputPart ring(std::vector<Point> vertices, std::int64_t feature = 0);
+InputPart point(double x, double y);
+
+Result<Network> network_of(const ZoneCase& c, const Context& context = {});
+Result<Zone> zone_of(const ZoneCase& c, const Context& context = {});
+
+/// A zone as plain pieces, as a reader of its file would see it.
+std::vector<input::ResultPolygon> plain(const Zone& zone);
+
+/// What is wrong with the zone: validate(), then all checks of the verifier against the case's input, which share no
+/// code with the engine; nothing if it is right. `effort` scales the number of samples.
+std::optional<std::string> fault_in(const Zone& zone, const ZoneCase& c, double effort = 0.02);
+/// Computes the zone and says what is wrong with it, an error of the computation included.
+std::optional<std::string> fault_in(const ZoneCase& c, double effort = 0.02);
+
+/// Number of outer rings and of holes.
+struct RingCounts {
+  std::size_t outer = 0, holes = 0;
+  friend bool operator==(const RingCounts&, const RingCounts&) = default;
+};
+inline RingCounts counts(const Zone& zone) { return {zone.polygon_count(), zone.hole_count()}; }
+std::ostream& operator<<(std::ostream& out, const RingCounts& c);
+
+}  // namespace krepl::test
