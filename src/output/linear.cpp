@@ -31,10 +31,11 @@ void Linearizer::append_arc(const Zone::Piece& arc, std::vector<Point>& points) 
   double angle = arc_angle(arc);
   auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(angle / largest_step_)));
   double step = angle / static_cast<double>(count);
-  double first = std::atan2(arc.start.y - arc.center.y, arc.start.x - arc.center.x);
+  Point from{arc.start.x - arc.center.x, arc.start.y - arc.center.y};
+  double first = std::atan2(from.y, from.x), distance = std::hypot(from.x, from.y);
   for (std::size_t i = 1; i < count; ++i) {
     double direction = first + static_cast<double>(i) * step;
-    points.push_back({arc.center.x + radius_ * std::cos(direction), arc.center.y + radius_ * std::sin(direction)});
+    points.push_back({arc.center.x + distance * std::cos(direction), arc.center.y + distance * std::sin(direction)});
   }
   points.push_back(arc.end);
   deviation_ = std::max(deviation_, sagitta(radius_, step));

@@ -59,7 +59,7 @@ std::unique_ptr<OGRPolygon> linear_polygon(const Zone& zone, std::uint32_t p, Li
 std::unique_ptr<OGRCompoundCurve> piece_geometry(const Zone& zone, std::uint32_t piece) {
   Zone::Piece p = zone.piece(piece);
   CurveRun run{p.kind == Zone::Kind::arc && !is_negligible(p), {p.start, p.end}};
-  if (run.arc) run.points = arc_points(p, zone.radius());
+  if (run.arc) run.points = arc_points(p);
   auto compound = std::make_unique<OGRCompoundCurve>();
   compound->addCurveDirectly(run_curve(run).release());
   return compound;

@@ -215,7 +215,7 @@ std::vector<BulgeVertex> ring_vertices(const Zone& zone, std::uint32_t ring) {
       vertices.push_back({piece.start, 0});
       continue;
     }
-    std::vector<Point> ends = arc_ends(piece, zone.radius(), std::numbers::pi);
+    std::vector<Point> ends = arc_ends(piece, std::numbers::pi);
     double step = arc_angle(piece) / static_cast<double>(ends.size() - 1);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) vertices.push_back({ends[i], std::tan(step / 4)});
   }

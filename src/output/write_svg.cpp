@@ -56,7 +56,7 @@ void put_ring(SvgText& text, const Zone& zone, std::uint32_t ring) {
       text.put_absolute('L', piece.end);
       continue;
     }
-    std::vector<Point> ends = arc_ends(piece, zone.radius(), largest_arc);
+    std::vector<Point> ends = arc_ends(piece, largest_arc);
     for (std::size_t i = 1; i < ends.size(); ++i) text.put_arc(zone.radius(), ends[i]);
   }
   text.put("Z");

@@ -27,12 +27,12 @@ std::vector<Point> circle_points(const Zone::Piece& circle) {
   return {circle.start, {c.x - u.y, c.y + u.x}, {c.x - u.x, c.y - u.y}, {c.x + u.y, c.y - u.x}, circle.start};
 }
 
-void halve(std::vector<Point>& ends, Point center, double radius) {
+void halve(std::vector<Point>& ends, Point center) {
   std::vector<Point> finer;
   finer.reserve(2 * ends.size());
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     finer.push_back(ends[i]);
-    finer.push_back(arc_middle(center, radius, ends[i], ends[i + 1]));
+    finer.push_back(arc_middle(center, ends[i], ends[i + 1]));
   }
   finer.push_back(ends.back());
   ends = std::move(finer);
@@ -49,8 +49,9 @@ double arc_angle(const Zone::Piece& arc) {
   return is_negligible(arc) ? 0 : angle + 2 * pi;
 }
 
-Point arc_middle(Point center, double radius, Point start, Point end) {
+Point arc_middle(Point center, Point start, Point end) {
   Point u = minus(start, center), v = minus(end, center);
+  double radius = (std::hypot(u.x, u.y) + std::hypot(v.x, v.y)) / 2;
   if (dot(u, v) <= 0) {  // between a quarter and three quarters: the chord is long, its normal is exact enough
     Point chord = minus(end, start);
     return towards(center, radius, {chord.y, -chord.x});
@@ -67,23 +68,23 @@ bool is_negligible(const Zone::Piece& arc) {
   return std::max(std::fabs(chord.x), std::fabs(chord.y)) <= 8 * std::numeric_limits<double>::epsilon() * size;
 }
 
-std::vector<Point> arc_points(const Zone::Piece& arc, double radius) {
+std::vector<Point> arc_points(const Zone::Piece& arc) {
   if (arc.start == arc.end) return circle_points(arc);
-  Point middle = arc_middle(arc.center, radius, arc.start, arc.end);
+  Point middle = arc_middle(arc.center, arc.start, arc.end);
   Point u = minus(arc.start, arc.center), v = minus(arc.end, arc.center);
   if (cross(u, v) >= 0) return {arc.start, middle, arc.end};
-  return {arc.start, arc_middle(arc.center, radius, arc.start, middle), middle,
-          arc_middle(arc.center, radius, middle, arc.end), arc.end};
+  return {arc.start, arc_middle(arc.center, arc.start, middle), middle,
+          arc_middle(arc.center, middle, arc.end), arc.end};
 }
 
-std::vector<Point> arc_ends(const Zone::Piece& arc, double radius, double largest) {
+std::vector<Point> arc_ends(const Zone::Piece& arc, double largest) {
   std::vector<Point> ends = {arc.start, arc.end};
   double angle = arc_angle(arc);
   if (arc.start == arc.end) {
     ends = circle_points(arc);
     angle /= 4;
   }
-  for (; angle > largest; angle /= 2) halve(ends, arc.center, radius);
+  for (; angle > largest; angle /= 2) halve(ends, arc.center);
   return ends;
 }
 
@@ -103,7 +104,7 @@ std::vector<CurveRun> ring_runs(const Zone& zone, std::uint32_t ring) {
       points.push_back(piece.end);
       continue;
     }
-    std::vector<Point> along = arc_points(piece, zone.radius());
+    std::vector<Point> along = arc_points(piece);
     points.insert(points.end(), along.begin() + 1, along.end());
   }
   return runs;

@@ -18,19 +18,20 @@ struct CurveRun {
 /// The angle that an arc piece spans, in (0, 2 pi]; start == end is the full turn.
 double arc_angle(const Zone::Piece& arc);
 
-/// The point halfway along the counter-clockwise arc from `start` to `end`, without trigonometry. Precondition: the ends
-/// differ and the arc is not the full circle.
-Point arc_middle(Point center, double radius, Point start, Point end);
+/// The point halfway along the counter-clockwise arc from `start` to `end`, without trigonometry: as far from the centre
+/// as the ends are (which the engine moves outwards by some units in the last place), so that a short arc keeps its
+/// bulge. Precondition: the ends differ.
+Point arc_middle(Point center, Point start, Point end);
 
 /// An arc shorter than a few units in the last place of its coordinates: no double lies between its ends, so it is
 /// written as a straight piece.
 bool is_negligible(const Zone::Piece& arc);
 
-/// The arc cut into equal-kind parts: start, (middle, end) once or, for more than half a turn, twice.
-std::vector<Point> arc_points(const Zone::Piece& arc, double radius);
+/// The arc as points of a circular string: start, (middle, end) once or, for more than half a turn, twice.
+std::vector<Point> arc_points(const Zone::Piece& arc);
 
 /// The arc cut into `2^k` equal parts of at most `largest` radians: their ends, start and end included.
-std::vector<Point> arc_ends(const Zone::Piece& arc, double radius, double largest);
+std::vector<Point> arc_ends(const Zone::Piece& arc, double largest);
 
 double piece_length(const Zone::Piece& piece, double radius);
 

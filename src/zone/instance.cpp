@@ -27,7 +27,7 @@ Instance::Instance(const Network& network, double nominal_radius, double radius,
       nominal_radius_(nominal_radius),
       radius_(radius),
       extent_(network.extent()),
-      jitter_(0x1p-80 * network.extent()),
+      jitter_(std::max(0x1p-80 * network.extent(), 0x1p-95 * radius)),  // well above what 113 bits resolve
       sectors_(network.vertices().size(), Sector{none, none}) {
   find_sectors(context);
 }

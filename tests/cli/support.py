@@ -154,7 +154,7 @@ def piece_measure(piece):
     if a == c:  # full circle, b opposite to a
         r = math.dist(a, b) / 2
         return 2 * math.pi * r, math.pi * r * r
-    if (b[0] - a[0]) * (c[1] - a[1]) == (b[1] - a[1]) * (c[0] - a[0]):  # flatter than its coordinates can tell
+    if (a[0] - c[0]) * (b[1] - c[1]) == (a[1] - c[1]) * (b[0] - c[0]):  # flatter than its coordinates can tell
         return math.dist(a, c), 0.0
     center, r = circle_through(a, b, c)
     turn = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])

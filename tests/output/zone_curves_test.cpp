@@ -35,26 +35,38 @@ TEST(ZoneCurves, MiddleIsOnTheCircleHalfway) {
     Zone::Piece piece = arc(center, r, from, span);
     if (span > 2 * pi - 1e-3 || output::is_negligible(piece)) continue;
     double rounding = 4e-16 * (r + std::fabs(center.x) + std::fabs(center.y));
-    Point middle = output::arc_middle(center, r, piece.start, piece.end);
+    Point middle = output::arc_middle(center, piece.start, piece.end);
     EXPECT_NEAR(distance(middle, center), r, 2 * rounding);
     EXPECT_NEAR(distance(middle, piece.start), distance(middle, piece.end), 4 * rounding);
     EXPECT_NEAR(distance(middle, on_circle(center, r, from + span / 2)), 0, 1e-15 * r / std::sin(span / 2) + 8 * rounding);
   }
 }
 
+TEST(ZoneCurves, ShortArcsKeepTheirBulge) {
+  // Ends a few units in the last place outside of the nominal circle, an arc flatter than that distance.
+  Point center{4e6, 4e6};
+  for (double span : {1e-2, 1e-4, 1e-5}) {
+    Zone::Piece piece = arc(center, 250 + 1.5e-8, 1, span);
+    Point middle = output::arc_middle(center, piece.start, piece.end);
+    Point chord{piece.end.x - piece.start.x, piece.end.y - piece.start.y};
+    double bulge = (chord.x * (piece.start.y - middle.y) - chord.y * (piece.start.x - middle.x)) / std::hypot(chord.x, chord.y);
+    EXPECT_NEAR(bulge, 250 * span * span / 8, 1.5e-9);
+  }
+}
+
 TEST(ZoneCurves, ArcsBeyondHalfATurnAreCut) {
-  EXPECT_EQ(output::arc_points(arc({0, 0}, 1, 0.1, 3.1), 1).size(), 3u);
-  EXPECT_EQ(output::arc_points(arc({0, 0}, 1, 0.1, 3.2), 1).size(), 5u);
-  EXPECT_EQ(output::arc_points(arc({0, 0}, 1, 0.1, 6.2), 1).size(), 5u);
+  EXPECT_EQ(output::arc_points(arc({0, 0}, 1, 0.1, 3.1)).size(), 3u);
+  EXPECT_EQ(output::arc_points(arc({0, 0}, 1, 0.1, 3.2)).size(), 5u);
+  EXPECT_EQ(output::arc_points(arc({0, 0}, 1, 0.1, 6.2)).size(), 5u);
 }
 
 TEST(ZoneCurves, FullCircle) {
   Zone::Piece circle{Kind::arc, {5, 3}, {5, 3}, {3, 3}, 0, false};
   EXPECT_EQ(output::arc_angle(circle), 2 * pi);
   EXPECT_EQ(output::piece_length(circle, 2), 4 * pi);
-  EXPECT_EQ(output::arc_points(circle, 2), (std::vector<Point>{{5, 3}, {3, 5}, {1, 3}, {3, 1}, {5, 3}}));
-  EXPECT_EQ(output::arc_ends(circle, 2, pi).size(), 5u);
-  EXPECT_EQ(output::arc_ends(circle, 2, 1).size(), 9u);
+  EXPECT_EQ(output::arc_points(circle), (std::vector<Point>{{5, 3}, {3, 5}, {1, 3}, {3, 1}, {5, 3}}));
+  EXPECT_EQ(output::arc_ends(circle, pi).size(), 5u);
+  EXPECT_EQ(output::arc_ends(circle, 1).size(), 9u);
 }
 
 TEST(ZoneCurves, ArcsOfAFewUnitsInTheLastPlaceAreStraight) {

@@ -30,7 +30,9 @@ function layerTitle(page, layer) {
 }
 
 function layerFacts(page, layer) {
-  if (layer.role === 'input') return [many(layer.chains, 'line'), many(layer.segments, 'segment'), lengthText(page, layer.perimeter)];
+  if (layer.role === 'input') {
+    return [many(layer.chains, 'line'), many(layer.segments, 'segment'), 'length\u00a0' + lengthText(page, layer.perimeter)];
+  }
   if (layer.role === 'profile') return [many(layer.segments, 'segment'), many(layer.arcs, 'arc')];
   return [many(layer.polygons, 'polygon'), many(layer.holes, 'hole'), many(layer.segments, 'segment'),
     many(layer.arcs, 'arc'), areaText(page, layer.area)];
