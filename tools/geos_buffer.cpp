@@ -2,10 +2,11 @@
 //
 //   geos_buffer IN TO_CRS RADIUS RELATIVE_ERROR
 //
-// Reads the lines of IN through OGR, projects them to TO_CRS ("-": leaves them as they are), and has GEOS buffer them all at
-// once, with so many segments to a quadrant that chords stay within RELATIVE_ERROR * RADIUS of their arcs. Prints one line
-// of key=value pairs; `seconds` is the buffer call alone, `worst` the largest difference between RADIUS and the distance from the
-// network to a vertex or the middle of a side of the result. Linked with GEOS (LGPL) as a program of its own.
+// Reads the lines of IN through OGR, projects them to TO_CRS ("-": leaves them as they are), and has GEOS buffer them
+// all at once, with so many segments to a quadrant that chords stay within RELATIVE_ERROR * RADIUS of their arcs.
+// Prints one line of key=value pairs; `seconds` is the buffer call alone, `worst` the largest difference between RADIUS
+// and the distance from the network to a vertex or the middle of a side of the result. Linked with GEOS (LGPL) as a
+// program of its own.
 #include <geos_c.h>
 #include <ogrsf_frmts.h>
 
@@ -55,7 +56,8 @@ void add_lines(const OGRGeometry& geometry, Lines& lines) {
   const OGRLineString& line = *geometry.toLineString();
   const unsigned count = static_cast<unsigned>(line.getNumPoints());
   GEOSCoordSequence* points = GEOSCoordSeq_create(count, 2);
-  for (unsigned i = 0; i < count; ++i) GEOSCoordSeq_setXY(points, i, line.getX(static_cast<int>(i)), line.getY(static_cast<int>(i)));
+  for (unsigned i = 0; i < count; ++i)
+    GEOSCoordSeq_setXY(points, i, line.getX(static_cast<int>(i)), line.getY(static_cast<int>(i)));
   lines.parts.push_back(GEOSGeom_createLineString(points));
   lines.segments += count - 1;
 }
@@ -76,7 +78,8 @@ Lines read_lines(const char* path, const std::string& to_crs) {
   for (auto& feature : layer) {
     OGRGeometry* geometry = feature->GetGeometryRef();
     if (geometry == nullptr || geometry->IsEmpty()) continue;
-    if (transformation != nullptr && geometry->transform(transformation.get()) != OGRERR_NONE) fail("projection failed");
+    if (transformation != nullptr && geometry->transform(transformation.get()) != OGRERR_NONE)
+      fail("projection failed");
     add_lines(*geometry, lines);
   }
   if (lines.parts.empty()) fail("no lines");
@@ -88,7 +91,8 @@ struct Shape {
 };
 
 /// Calls `use` for every ring of a polygon or a collection of them.
-void for_each_ring(const GEOSGeometry* zone, Shape& shape, const std::function<void(const GEOSCoordSequence*, unsigned)>& use) {
+void for_each_ring(const GEOSGeometry* zone, Shape& shape,
+                   const std::function<void(const GEOSCoordSequence*, unsigned)>& use) {
   for (int p = 0; p < GEOSGetNumGeometries(zone); ++p) {
     const GEOSGeometry* polygon = GEOSGetGeometryN(zone, p);
     const int holes = GEOSGetNumInteriorRings(polygon);
@@ -136,7 +140,8 @@ double worst_error(const GEOSGeometry* zone, const GEOSGeometry* network, double
 double number(const char* text) {
   char* end = nullptr;
   const double value = std::strtod(text, &end);
-  if (end == text || *end != 0 || !(value > 0) || !std::isfinite(value)) fail(std::string(text) + " is not a positive number");
+  if (end == text || *end != 0 || !(value > 0) || !std::isfinite(value))
+    fail(std::string(text) + " is not a positive number");
   return value;
 }
 
@@ -151,8 +156,8 @@ int main(int argc, char** argv) {
   initGEOS(report, report);
   const double radius = number(argv[3]), relative = number(argv[4]);
   Lines lines = read_lines(argv[1], argv[2]);
-  const Geometry network(GEOSGeom_createCollection(GEOS_MULTILINESTRING, lines.parts.data(),
-                                                   static_cast<unsigned>(lines.parts.size())));
+  const Geometry network(
+      GEOSGeom_createCollection(GEOS_MULTILINESTRING, lines.parts.data(), static_cast<unsigned>(lines.parts.size())));
   // A chord over an angle a is radius * (1 - cos(a / 2)) away from its arc in the middle.
   const double angle = 2 * std::acos(1 - std::min(relative, 0.5));
   const int quadrant = std::max(1, static_cast<int>(std::ceil(std::numbers::pi / 2 / angle)));
@@ -167,9 +172,10 @@ int main(int argc, char** argv) {
   double area = 0;
   GEOSArea(zone.get(), &area);
   const double worst = worst_error(zone.get(), network.get(), radius, shape.vertices);
-  std::printf("version=%s radius=%.17g quadrant=%d segments=%zu polygons=%zu rings=%zu holes=%zu vertices=%zu area=%.10g "
-              "worst=%.4g valid=%d seconds=%.4f\n",
-              GEOSversion(), radius, quadrant, lines.segments, shape.polygons, shape.rings, shape.holes, shape.vertices, area,
-              worst, static_cast<int>(GEOSisValid(zone.get())), seconds);
+  std::printf(
+      "version=%s radius=%.17g quadrant=%d segments=%zu polygons=%zu rings=%zu holes=%zu vertices=%zu area=%.10g "
+      "worst=%.4g valid=%d seconds=%.4f\n",
+      GEOSversion(), radius, quadrant, lines.segments, shape.polygons, shape.rings, shape.holes, shape.vertices, area,
+      worst, static_cast<int>(GEOSisValid(zone.get())), seconds);
   return 0;
 }

@@ -95,13 +95,14 @@ int run_view(const ViewOptions& options, Session& session) {
     page->layers.push_back(std::move(*layer));
   }
   const std::string html = view::render_page(*page);
+  const std::string out_name = options.output == "-" ? "standard output" : options.output;
   auto stream = output::OutputStream::open(options.output);
-  if (!stream) return session.fail(options.output, stream.error());
+  if (!stream) return session.fail(out_name, stream.error());
   stream->write(html);
-  if (Status written = stream->finish(); !written) return session.fail(options.output, written.error());
+  if (Status written = stream->finish(); !written) return session.fail(out_name, written.error());
   std::size_t pieces = 0;
   for (const view::Layer& layer : page->layers) pieces += layer.role == "input" ? 0 : layer.kind.size();
-  session.summary(fmt::format("{}: {} layers, {} pieces, {:.1f} MB; open it in a browser", options.output,
+  session.summary(fmt::format("{}: {} layers, {} pieces, {:.1f} MB; open it in a browser", out_name,
                               page->layers.size(), pieces, static_cast<double>(html.size()) / 1e6),
                   options.output == "-");
   return 0;
@@ -118,7 +119,8 @@ void add_view_verb(CLI::App& program, Session& session) {
       ->type_name("IN");
   verb->add_option("--layer", options->input.layer, "Layer of the input to read")->type_name("NAME");
   verb->add_option("--where", options->input.where, "Features of the input to read, as SQL")->type_name("CONDITION");
-  verb->add_option("--to-crs", options->input.to_crs, "Plane coordinate system to project the input to (default: the result's)")
+  verb->add_option("--to-crs", options->input.to_crs,
+                   "Plane coordinate system to project the input to (default: the result's)")
       ->type_name("EPSG:n|auto");
   verb->add_option("--title", options->title, "Title of the page (default: name of the file)")->type_name("TEXT");
   session.add_common_options(*verb);

@@ -120,6 +120,14 @@ int opposite_or_equal(const Point& start_normal, Vec<double> d2) {
   return up_before ? -1 : 1;
 }
 
+/// Where two walls at one place overlap the earlier one stays, although the later one lies over its start too: the rule
+/// must not depend on where the start is, or blocks would decide otherwise than the whole.
+bool earlier_wall_stays(const Entry& before, const Entry& p, const Later& next, double radius) {
+  if (!is_side(p.label) || p.a.x != p.b.x || next.a.x != next.b.x || (p.b.y > p.a.y) != (next.b.y > next.a.y)) return false;
+  const Real rest = magnitude(exact_difference(p.b, p.a).y) - start_of(before, p, radius).t;
+  return rest > Real(32 * epsilon<Real>) * Real(radius + std::fabs(p.b.y - p.a.y));
+}
+
 }  // namespace
 
 Start precise_start(const Entry& p, const Later& next, bool on_circle, double radius, ProfileCounters& counters) {
@@ -134,7 +142,7 @@ int precise_covered(const Entry& before, const Entry& p, const Later& next, doub
   ++counters.in_double_double;
   if (const int answer = covered(before, p, next, radius); answer != 0) return answer;
   ++counters.ties;
-  return 1;
+  return earlier_wall_stays(before, p, next, radius) ? -1 : 1;
 }
 
 int precise_beyond(const Entry& p, const Later& next, double radius, ProfileCounters& counters) {

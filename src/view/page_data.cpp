@@ -21,8 +21,8 @@ double distance(Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 struct Arc {
   Point center;
-  bool left = true;   ///< counter-clockwise
-  double sweep = 0;   ///< angle, (0, 2 pi]
+  bool left = true;  ///< counter-clockwise
+  double sweep = 0;  ///< angle, (0, 2 pi]
   double radius = 0;
 };
 
@@ -82,7 +82,8 @@ class LayerBuilder {
   void source(Layer::Part part, std::uint32_t vertex) {
     if (layer_.source_part.empty()) layer_.source_part.assign(layer_.kind.size() - 1, Layer::unknown);
     if (layer_.source_vertex.empty()) layer_.source_vertex.assign(layer_.kind.size() - 1, Layer::unknown);
-    auto [place, fresh] = part_index_.try_emplace({part.feature, part.part}, static_cast<std::uint32_t>(layer_.parts.size()));
+    auto [place, fresh] =
+        part_index_.try_emplace({part.feature, part.part}, static_cast<std::uint32_t>(layer_.parts.size()));
     if (fresh) layer_.parts.push_back(part);
     layer_.source_part.push_back(place->second);
     layer_.source_vertex.push_back(vertex);
@@ -174,7 +175,8 @@ Result<std::vector<Layer>> zone_layers(const std::vector<input::ResultZone>& zon
 
 Result<Layer> profile_layer(const std::vector<ProfileRow>& rows) {
   if (rows.empty()) return Error{ErrorCode::input, "holds no piece", "", ""};
-  if (rows.size() > most_pieces) return Error{ErrorCode::input, "has too many pieces for a page", "", "show a part of it"};
+  if (rows.size() > most_pieces)
+    return Error{ErrorCode::input, "has too many pieces for a page", "", "show a part of it"};
   Layer layer;
   layer.role = "profile";
   LayerBuilder builder(layer);

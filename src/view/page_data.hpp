@@ -21,8 +21,8 @@ enum class PieceKind : std::uint8_t { segment = 0, arc_left = 1, arc_right = 2, 
 enum class ChainKind : std::uint8_t { outer = 0, hole = 1, open = 2 };
 
 /// Chains of true pieces that are shown and hidden together: the zone of one radius, a profile, the input.
-/// Chain c has the vertices vertex_begin[c] .. vertex_begin[c+1], one more than pieces (rings repeat the first vertex); its
-/// piece i starts at vertex vertex_begin[c] + i and has the index vertex_begin[c] - c + i in the arrays by piece.
+/// Chain c has the vertices vertex_begin[c] .. vertex_begin[c+1], one more than pieces (rings repeat the first vertex);
+/// its piece i starts at vertex vertex_begin[c] + i and has the index vertex_begin[c] - c + i in the arrays by piece.
 struct Layer {
   static constexpr std::uint32_t unknown = ~std::uint32_t{0};
 
@@ -32,15 +32,15 @@ struct Layer {
   std::vector<Point> vertices;
   std::vector<std::uint32_t> vertex_begin{0};
   std::vector<ChainKind> chain_kind;
-  std::vector<PieceKind> kind;              ///< by piece
-  std::vector<Point> centers;               ///< one for each arc, in the order of the pieces
-  std::vector<std::uint32_t> source_part;   ///< by piece: index into `parts`, or unknown; empty if none is known
-  std::vector<std::uint32_t> source_vertex; ///< by piece: vertex, or first vertex of the segment, within that part
+  std::vector<PieceKind> kind;               ///< by piece
+  std::vector<Point> centers;                ///< one for each arc, in the order of the pieces
+  std::vector<std::uint32_t> source_part;    ///< by piece: index into `parts`, or unknown; empty if none is known
+  std::vector<std::uint32_t> source_vertex;  ///< by piece: vertex, or first vertex of the segment, within that part
   struct Part {
-    std::int64_t feature = -1, part = -1;   ///< -1: unknown
+    std::int64_t feature = -1, part = -1;  ///< -1: unknown
     friend bool operator==(const Part&, const Part&) = default;
   };
-  std::vector<Part> parts;                  ///< where pieces come from; for the role "input": by chain
+  std::vector<Part> parts;  ///< where pieces come from; for the role "input": by chain
 
   std::size_t polygons = 0;
   double area = 0;       ///< zones: of the polygons, holes taken off
@@ -60,8 +60,8 @@ struct PageData {
   std::vector<Layer> layers;
 };
 
-/// A layer for each zone, the largest radius first (below the others). Errors: nothing to show; a coordinate that is not
-/// finite; more than 2^31 pieces in a layer.
+/// A layer for each zone, the largest radius first (below the others). Errors: nothing to show; a coordinate that is
+/// not finite; more than 2^31 pieces in a layer.
 Result<std::vector<Layer>> zone_layers(const std::vector<input::ResultZone>& zones);
 
 /// The profile as one chain. Its radius is that of its first arc. Errors: as zone_layers.

@@ -40,7 +40,8 @@ Error bad_line(std::size_t line, const std::string& what, const std::string& rem
 }
 
 /// Calls `row` for each line that is neither empty nor a comment; the first one is the header, number 0.
-Status for_each_line(const std::string& path, const std::function<Status(const Fields&, std::size_t line, bool header)>& row) {
+Status for_each_line(const std::string& path,
+                     const std::function<Status(const Fields&, std::size_t line, bool header)>& row) {
   std::ifstream file(path);
   if (!file) return Error{ErrorCode::io, "cannot be read", "", "check the name and the permissions"};
   std::string line;
@@ -57,14 +58,17 @@ Status for_each_line(const std::string& path, const std::function<Status(const F
 
 Result<ProfileRow> row_of(const Fields& fields, std::size_t line) {
   ProfileRow row;
-  if (fields[0] == "half_line") row.kind = ProfileRow::Kind::half_line;
-  else if (fields[0] == "arc") row.kind = ProfileRow::Kind::arc;
+  if (fields[0] == "half_line")
+    row.kind = ProfileRow::Kind::half_line;
+  else if (fields[0] == "arc")
+    row.kind = ProfileRow::Kind::arc;
   else if (fields[0] != "segment")
     return bad_line(line, "unknown kind '" + std::string(fields[0]) + "'", "kinds are half_line, segment and arc");
   double* const numbers[] = {&row.start.x, &row.start.y, &row.end.x, &row.end.y, &row.center.x, &row.center.y};
   const std::size_t wanted = row.kind == ProfileRow::Kind::arc ? 6 : 4;
   for (std::size_t i = 0; i < wanted; ++i) {
-    if (!parse(fields[i + 1], *numbers[i])) return bad_line(line, "'" + std::string(fields[i + 1]) + "' is not a number");
+    if (!parse(fields[i + 1], *numbers[i]))
+      return bad_line(line, "'" + std::string(fields[i + 1]) + "' is not a number");
     const bool lower_end = row.kind == ProfileRow::Kind::half_line && (i == 1 || i == 3) && *numbers[i] == -INFINITY;
     if (!std::isfinite(*numbers[i]) && !lower_end) return bad_line(line, "a coordinate is not finite");
   }

@@ -19,11 +19,16 @@ static_assert(std::endian::native == std::endian::little, "the page reads little
 std::string html_escaped(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
-    if (c == '&') escaped += "&amp;";
-    else if (c == '<') escaped += "&lt;";
-    else if (c == '>') escaped += "&gt;";
-    else if (c == '"') escaped += "&quot;";
-    else escaped += c;
+    if (c == '&')
+      escaped += "&amp;";
+    else if (c == '<')
+      escaped += "&lt;";
+    else if (c == '>')
+      escaped += "&gt;";
+    else if (c == '"')
+      escaped += "&quot;";
+    else
+      escaped += c;
   }
   return escaped;
 }
@@ -33,8 +38,10 @@ std::string json_in_html(const nlohmann::ordered_json& value) {
   const std::string plain = value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   std::string escaped;
   for (const char c : plain) {
-    if (c == '<') escaped += "\\u003c";
-    else escaped += c;
+    if (c == '<')
+      escaped += "\\u003c";
+    else
+      escaped += c;
   }
   return escaped;
 }
@@ -90,10 +97,14 @@ void append_filled(std::string& page, std::string_view text, const std::string& 
     if (mark == std::string_view::npos) return;
     const std::size_t end = text.find("}}", mark);
     const std::string_view name = text.substr(mark + 2, end - mark - 2);
-    if (name == "title") page += title;
-    else if (name == "style") page += page_style;
-    else if (name == "script") page += page_script;
-    else if (name == "data") page += data;
+    if (name == "title")
+      page += title;
+    else if (name == "style")
+      page += page_style;
+    else if (name == "script")
+      page += page_script;
+    else if (name == "data")
+      page += data;
     text.remove_prefix(end + 2);
   }
 }

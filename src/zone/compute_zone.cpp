@@ -22,12 +22,13 @@ std::string number(double x) {
 }
 
 /// Error budget, in terms of S = max(R, extent) and u, the unit in the last place of the largest output coordinate:
-///   g: radius enlarged by     max(16 u, 2^-48 S), so that what comes that close merges     <= 3.6e-15 S
+///   g: radius enlarged by     max(4 u, 2^-48 S) , so that what comes that close merges     <= 3.6e-15 S
 ///   vertices moved by         2^-80 extent, in ill-conditioned places only                 <= 8.3e-25 S
 ///   evaluation of a vertex    a few u                                                      ~ 1e-15 S
 ///   contraction of pieces     up to 64 g along the boundary, g off it                      <= 2.3e-13 S
-/// where u <= 2^-52 S unless the data lies far from its own origin, when u is what the format can hold. Vertices are evaluated
-/// with the nominal radius where that shifts them by at most 16 g (crossing.cpp), so 64 g keeps their order along a piece.
+/// where u <= 2^-52 S unless the data lies far from its own origin, when u is what the format can hold; g and 64 g are capped at
+/// 2^-31 S there. Vertices are evaluated
+/// with the nominal radius where that shifts them by at most a quarter of the length below which pieces are contracted.
 struct Precision {
   double effective_radius;
   double resolution;
@@ -47,8 +48,9 @@ Result<Precision> precision_for(const Network& network, double radius) {
     return Error{ErrorCode::usage, "the radius " + number(radius) + " is finer than the coordinates can hold", "",
                  "use at least " + number(16384 * u)};
   }
-  const double enlargement = std::min(std::max(16 * u, 0x1p-48 * scale), 0x1p-40 * scale);
-  return Precision{radius + enlargement, std::max(64 * enlargement, 4 * u)};
+  const double most = 0x1p-31 * scale;  // half of the contract's 1e-9 S
+  const double enlargement = std::min(std::max(4 * u, 0x1p-48 * scale), most);
+  return Precision{radius + enlargement, std::max(4 * u, std::min(64 * enlargement, most))};
 }
 
 }  // namespace
@@ -59,7 +61,8 @@ Result<Zone> compute_zone(std::shared_ptr<const Network> network, const ZoneOpti
   const Error cancelled{ErrorCode::cancelled, "cancelled", "", ""};
 
   ZoneCounters counters;
-  std::optional<zone::Instance> instance(std::in_place, *network, options.radius, precision->effective_radius, context);
+  std::optional<zone::Instance> instance(std::in_place, *network, options.radius, precision->effective_radius,
+                                         precision->resolution, context);
   std::vector<zone::Piece> pieces;
   {
     const zone::SiteTree tree(*instance, context);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "zone/crossing.hpp"
@@ -13,6 +14,7 @@ struct Chain {
   std::vector<Index> element, before, after;
   std::vector<Index> from, to;  // the elements that a piece's ends were first found on
   std::vector<Point> vertex;
+  std::vector<Point> end;  // of the piece, before anything after it was contracted
   Index count = 0;
   Index head = 0;
 
@@ -33,6 +35,8 @@ struct Chain {
       from[i] = element[before[i]];
       to[i] = element[after[i]];
     }
+    end.resize(count);
+    for (Index i = 0; i < count; ++i) end[i] = vertex[after[i]];
   }
   /// Drops piece i and its first vertex; the piece before it runs on to the one after it.
   void erase(Index i) {
@@ -77,15 +81,16 @@ class Contraction {
   /// True if the ring encloses nothing that the coordinates can tell.
   bool is_thin(const Chain& c) const {
     if (c.count == 1) return c.from[c.head] != c.element[c.head] && !is_long(c, c.head);  // all but full circles
-    double area = 0, perimeter = 0;
+    double area = 0, perimeter = 0, across = 0;
     Index i = c.head;
     do {
       const Point p = c.vertex[i], q = c.vertex[c.after[i]];
       area += twice_area(in_, c.element[i], p, q, c.vertex[c.head]);
       perimeter += distance(p, q);
+      across = std::max({across, distance(p, c.vertex[c.head]), is_long(c, i) ? in_.nominal_radius() : 0.0});
       i = c.after[i];
     } while (i != c.head);
-    return std::abs(area) <= resolution_ * perimeter;
+    return across <= 8 * resolution_ || std::abs(area) <= resolution_ * perimeter;
   }
 
  private:
@@ -96,6 +101,7 @@ class Contraction {
     const Index before = c.before[i], after = c.after[i];
     if (c.element[before] == c.element[i]) {  // a full circle's start, or what a contraction left
       c.to[before] = c.to[i];
+      c.end[before] = c.end[i];
       c.erase(i);
       return true;
     }
@@ -103,6 +109,8 @@ class Contraction {
     const bool tiny = chord <= resolution_;
     const bool bump = c.count > 2 && c.element[before] == c.element[after] && strays_little(chord);
     if ((!tiny && !bump) || is_long(c, i)) return false;
+    // Many short pieces in a row must not carry the end of the one before them along.
+    if (!bump && chord > 0 && distance(c.end[before], c.vertex[after]) > 4 * resolution_) return false;
     c.erase(i);
     ++counters_.collapsed_pieces;
     return true;

@@ -8,9 +8,8 @@ namespace {
 using kernel::absolute;
 using kernel::square_root;
 
-// By the smallest relative size among the numbers divided by or rooted: above the first bound the nominal radius serves as well
-// as the enlarged one (the point moves by at most 16 times their difference); below the second one double precision does not.
-constexpr double well_conditioned = 0x1p-4;
+// By the smallest relative size among the numbers divided by or rooted: below this, double precision does not serve. Above
+// Instance::nominal_condition() the nominal radius serves as well as the enlarged one.
 constexpr double ill_conditioned = 0x1p-20;
 
 /// An offset from a vertex, with its condition. `lever` times the vertices' unseen move bounds what the move may change.
@@ -106,7 +105,7 @@ Point add(Point base, Vector<double> offset) { return {base.x + offset.x, base.y
 Point crossing(const Instance& in, Index from, Index to) {
   const auto unmoved = [&](const Place<double>& p) { return p.lever * 16 * in.jitter() < in.enlargement(); };
   const auto nominal = place_of<double>(in, from, to, in.nominal_radius());
-  if (nominal.condition > well_conditioned && unmoved(nominal)) return add(in.vertices()[nominal.base], nominal.offset);
+  if (nominal.condition > in.nominal_condition() && unmoved(nominal)) return add(in.vertices()[nominal.base], nominal.offset);
   const auto p = place_of<double>(in, from, to, in.radius());
   if (p.condition > ill_conditioned && unmoved(p)) return add(in.vertices()[p.base], p.offset);
   const auto q = place_of<quad>(in, from, to, in.radius());

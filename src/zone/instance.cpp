@@ -21,11 +21,13 @@ double fraction(std::uint64_t h) { return double(std::int64_t(h)) * 0x1p-63; }
 
 }  // namespace
 
-Instance::Instance(const Network& network, double nominal_radius, double radius, const Context& context)
+Instance::Instance(const Network& network, double nominal_radius, double radius, double resolution,
+                   const Context& context)
     : vertices_(network.vertices()),
       segments_(network.segments()),
       nominal_radius_(nominal_radius),
       radius_(radius),
+      nominal_condition_(4 * (radius - nominal_radius) / resolution),
       extent_(network.extent()),
       jitter_(std::max(0x1p-80 * network.extent(), 0x1p-95 * radius)),  // well above what 113 bits resolve
       sectors_(network.vertices().size(), Sector{none, none}) {

@@ -27,7 +27,7 @@ Real length(Vector<Real> v) {
 /// The concrete, non-degenerate instance whose topology is computed (docs/zone.md, "One instance").
 ///
 /// Vertices are the network's, moved by at most jitter(), 2^-80 of the extent or 2^-95 R, in a direction that is a hash of their
-/// coordinates; the radius is enlarged by 2^-48 S or 16 units in the last place of the coordinates, whichever is more.
+/// coordinates; the radius is enlarged by 2^-48 S or 4 units in the last place of the coordinates, whichever is more.
 /// Double precision sees the unmoved vertices and counts the move as an error; quadruple precision sees the moved ones. So every
 /// decision is about the same instance, and decisions taken at different elements cannot contradict each other.
 ///
@@ -40,12 +40,15 @@ class Instance {
     Index from, to;
   };
 
-  Instance(const Network& network, double nominal_radius, double radius, const Context& context);
+  /// `resolution`: pieces shorter than this will be contracted, so vertices may be displaced by a quarter of it.
+  Instance(const Network& network, double nominal_radius, double radius, double resolution, const Context& context);
 
   /// The enlarged radius, which decides everything.
   double radius() const { return radius_; }
   /// The radius as given, for coordinates where the difference cannot matter.
   double nominal_radius() const { return nominal_radius_; }
+  /// Crossings at least this well conditioned may be evaluated with the nominal radius.
+  double nominal_condition() const { return nominal_condition_; }
   double enlargement() const { return radius_ - nominal_radius_; }
   double jitter() const { return jitter_; }
   /// Largest absolute coordinate of a vertex.
@@ -105,6 +108,7 @@ class Instance {
   std::span<const Network::Segment> segments_;
   double nominal_radius_;
   double radius_;
+  double nominal_condition_;
   double extent_;
   double jitter_;
   std::vector<Index> isolated_;

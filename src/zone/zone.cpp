@@ -84,7 +84,8 @@ double Zone::perimeter() const {
 
 std::optional<std::string> Zone::validate() const {
   if (auto wrong = subdivision_.validate()) return wrong;
-  const double tolerance = 1e-9 * scale();
+  // Where the coordinates themselves are coarser than the contract, they set the measure.
+  const double tolerance = std::max(1e-9 * scale(), 16 * network_->resolution());
   for (std::uint32_t e = 0; e < piece_count(); ++e) {
     const Piece p = local_piece(e);
     const auto complain = [&](const char* what) {

@@ -50,7 +50,7 @@ TEST(ZoneCurves, ShortArcsKeepTheirBulge) {
     Point middle = output::arc_middle(center, piece.start, piece.end);
     Point chord{piece.end.x - piece.start.x, piece.end.y - piece.start.y};
     double bulge = (chord.x * (piece.start.y - middle.y) - chord.y * (piece.start.x - middle.x)) / std::hypot(chord.x, chord.y);
-    EXPECT_NEAR(bulge, 250 * span * span / 8, 1.5e-9);
+    EXPECT_NEAR(bulge, 500 * std::pow(std::sin(span / 4), 2), 1.5e-9);
   }
 }
 

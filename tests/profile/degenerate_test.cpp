@@ -57,7 +57,9 @@ std::vector<Named> corpus() {
   c.push_back({"slots, right wall lower", repeat(10, 6, {{0, 0}, {1, 0}, {1, -7}, {5, -7}, {5, -3}, {6, -3}, {6, 0}})});
   c.push_back({"needles at distance 2R", repeat(12, 4, {{0, 0}, {0, 5}, {0, 0}})});
   c.push_back({"equal peaks", repeat(20, 2, {{0, 0}, {1, 1}})});
-  c.push_back({"pythagorean peaks", {{-4, -3}, {-3, -4}, {0, -5}, {3, -4}, {4, -3}, {6, -3}, {7, -4}, {10, -5}, {13, -4}, {14, -3}}});
+  c.push_back({"pythagorean needles", repeat(4, 12, {{-4, -9}, {-4, -3}, {-4, -9}, {-3, -9}, {-3, -4}, {-3, -9}, {0, -9}, {0, -5},
+                                                   {0, -9}, {3, -9}, {3, -4}, {3, -9}, {4, -9}, {4, -3}, {4, -9}})});
+  c.push_back({"bowl of chords", {{-4, -3}, {-3, -4}, {0, -5}, {3, -4}, {4, -3}, {6, -3}, {7, -4}, {10, -5}, {13, -4}, {14, -3}}});
   c.push_back({"lake with a third ridge in its plane", {{0, 0}, {4, 0}, {5, -2}, {6, 0}, {9, 0}, {10, -8}, {11, 0}, {15, 0}}});
   c.push_back({"wall of many pieces", {{0, 0}, {1, 0}, {1, 2}, {1, 1}, {1, 4}, {1, 4}, {1, 3}, {1, 6}, {1, 0}, {1, 2}, {1, -3}, {2, -3}}});
   c.push_back({"ever smaller steps", [] {
@@ -106,13 +108,20 @@ TEST(Degenerate, IsTheSameBitsInBlocksAndAsStream) {
 }
 
 TEST(Degenerate, TiesAreFoundAsTies) {
-  // The disk of radius 5 touches all three of the lower points at once.
-  const Profile profile = profile_of({{-4, -3}, {-3, -4}, {0, -5}, {3, -4}, {4, -3}}, 5);
-  EXPECT_GT(profile.counters.ties, 0u);
-  EXPECT_EQ(profile.pieces.size(), 4u);
-  // A hair lower, and the middle one is hidden; a hair higher, and it shows; no tie in either case.
-  EXPECT_EQ(profile_of({{-3, -4}, {0, std::nextafter(-5.0, -6.0)}, {3, -4}}, 5).pieces.size(), 4u);
-  EXPECT_EQ(profile_of({{-3, -4}, {0, std::nextafter(-5.0, -4.0)}, {3, -4}}, 5).pieces.size(), 5u);
+  // Needles with their tips at these places; the disk of radius 5 touches all of them at once.
+  const auto needles = [](const Terrain& tips) {
+    Terrain t;
+    for (const Point& p : tips) t.insert(t.end(), {{p.x, -20}, p, {p.x, -20}});
+    return t;
+  };
+  const Profile tie = profile_of(needles({{-4, -3}, {-3, -4}, {0, -5}, {3, -4}, {4, -3}}), 5);
+  EXPECT_GT(tie.counters.ties, 0u);
+  EXPECT_EQ(tie.pieces.size(), 6u);  // half-line, wall, two arcs, wall, half-line
+  // The middle one a hair lower is hidden, a hair higher it shows; neither is a tie.
+  const Profile lower = profile_of(needles({{-3, -4}, {0, std::nextafter(-5.0, -6.0)}, {3, -4}}), 5);
+  EXPECT_EQ(lower.pieces.size(), 6u);
+  const Profile higher = profile_of(needles({{-3, -4}, {0, -5 + 0x1p-46}, {3, -4}}), 5);
+  EXPECT_EQ(higher.pieces.size(), 7u);
 }
 
 }  // namespace

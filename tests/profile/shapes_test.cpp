@@ -13,7 +13,10 @@ namespace {
 using Kind = ProfilePiece::Kind;
 constexpr double down = -std::numeric_limits<double>::infinity();
 
-/// A boundary as text: kind, cause and end of each piece, to nine digits.
+/// Nine digits; what is zero but for rounding is zero.
+double shown(double x) { return std::fabs(x) < 1e-12 ? 0 : x; }
+
+/// A boundary as text: kind, cause and end of each piece.
 std::string shape(const Terrain& terrain, double radius) {
   const Profile profile = profile_of(terrain, radius);
   std::string result;
@@ -21,7 +24,7 @@ std::string shape(const Terrain& terrain, double radius) {
     const ProfileRow row = profile.row(k);
     char text[100];
     std::snprintf(text, sizeof text, "%s%c%s(%.9g %.9g)", k == 0 ? "" : " ", "has"[row.kind == Kind::half_line ? 0 : row.kind == Kind::arc ? 1 : 2],
-                  profile_cause(row).c_str(), row.end.x + 0.0, row.end.y + 0.0);
+                  profile_cause(row).c_str(), shown(row.end.x), shown(row.end.y));
     result += text;
   }
   const auto fault = fault_in(terrain, radius);
@@ -94,10 +97,10 @@ TEST(Shapes, HalfLinesEndAtMinusInfinity) {
   EXPECT_EQ(profile.row(0).start.x, profile.row(0).end.x);
 }
 
-TEST(Shapes, ThreePeaksTouchedAtOnce) {
-  // (-3,4), (0,5) and (3,4) lie on a circle of radius 5 about the origin: the middle one's arc has no length.
-  EXPECT_EQ(shape({{-3, -4}, {0, -5}, {3, -4}}, 5), "hv0(-8 -4) av0(0 0) av2(8 -4) hv2(8 -inf)");
-  EXPECT_EQ(shape({{-4, -3}, {-3, -4}, {0, -5}, {3, -4}, {4, -3}}, 5), "hv0(-9 -3) av0(0 0) av4(9 -3) hv4(9 -inf)");
+TEST(Shapes, NeedlesTouchedAtOnce) {
+  // Needles' tips on a circle of radius 5 about the origin: only the outer two have arcs of some length.
+  EXPECT_EQ(shape({{-3, -20}, {-3, -4}, {-3, -20}, {0, -20}, {0, -5}, {0, -20}, {3, -20}, {3, -4}, {3, -20}}, 5),
+            "hv0(-8 -20) ss0(-8 -4) av1(0 0) av7(8 -4) ss7(8 -20) hv8(8 -inf)");
 }
 
 TEST(Shapes, CoordinatesOfUtmSizeLoseNothingButTheirOwnDigits) {

@@ -25,7 +25,8 @@ input::ResultPiece arc(Point a, Point m, Point b) { return {true, a, m, b, -1, -
 /// A stadium about (0,0)-(4,0) with radius 1, moved by `at`; counter-clockwise.
 input::ResultRing stadium(Point at) {
   const auto p = [&](double x, double y) { return Point{at.x + x, at.y + y}; };
-  return {{segment(p(0, -1), p(4, -1)), arc(p(4, -1), p(5, 0), p(4, 1)), segment(p(4, 1), p(0, 1)), arc(p(0, 1), p(-1, 0), p(0, -1))}};
+  return {{segment(p(0, -1), p(4, -1)), arc(p(4, -1), p(5, 0), p(4, 1)), segment(p(4, 1), p(0, 1)),
+           arc(p(0, 1), p(-1, 0), p(0, -1))}};
 }
 
 input::ResultRing circle(Point center, double radius) {
@@ -65,7 +66,8 @@ TEST(ZoneLayers, StadiumHasExactAreaAndLengthFarFromTheOrigin) {
     auto layers = zone_layers({{1.0, {{stadium(at), {}}}, ""}});
     ASSERT_TRUE(layers.ok());
     const Layer& layer = layers->front();
-    EXPECT_EQ(layer.kind, (std::vector<PieceKind>{PieceKind::segment, PieceKind::arc_left, PieceKind::segment, PieceKind::arc_left}));
+    EXPECT_EQ(layer.kind, (std::vector<PieceKind>{PieceKind::segment, PieceKind::arc_left, PieceKind::segment,
+                                                  PieceKind::arc_left}));
     EXPECT_EQ(layer.vertices.size(), 5u);
     EXPECT_EQ(layer.vertices.front(), layer.vertices.back());
     EXPECT_NEAR(layer.area, 8 + pi, 1e-12);
@@ -86,7 +88,8 @@ TEST(ZoneLayers, ArcsBeyondHalfACircleAndClockwiseOnes) {
   EXPECT_NEAR(layers->front().perimeter, 1.5 * pi + std::sqrt(2.0), 1e-14);
 
   // A quarter circle that cuts into a square: clockwise about the corner (1, 1).
-  const input::ResultRing bitten{{segment({0, 0}, {1, 0}), arc({1, 0}, {1 - h, 1 - h}, {0, 1}), segment({0, 1}, {0, 0})}};
+  const input::ResultRing bitten{
+      {segment({0, 0}, {1, 0}), arc({1, 0}, {1 - h, 1 - h}, {0, 1}), segment({0, 1}, {0, 0})}};
   layers = zone_layers({{1.0, {{bitten, {}}}, ""}});
   ASSERT_TRUE(layers.ok());
   EXPECT_EQ(layers->front().kind[1], PieceKind::arc_right);
@@ -166,7 +169,8 @@ class ProfileFile : public ::testing::Test {
 const std::string header = "kind,x0,y0,x1,y1,cx,cy,segment\n";
 
 TEST_F(ProfileFile, OnePointIsAHalfCircleBetweenHalfLines) {
-  auto rows = read_profile_rows(write(header + "half_line,-2,-inf,-2,0,,,v0\narc,-2,0,2,0,0,0,v0\nhalf_line,2,0,2,-inf,,,v0\n"));
+  auto rows = read_profile_rows(
+      write(header + "half_line,-2,-inf,-2,0,,,v0\narc,-2,0,2,0,0,0,v0\nhalf_line,2,0,2,-inf,,,v0\n"));
   ASSERT_TRUE(rows.ok()) << rows.error().text();
   auto layer = profile_layer(*rows);
   ASSERT_TRUE(layer.ok());
@@ -180,7 +184,9 @@ TEST_F(ProfileFile, OnePointIsAHalfCircleBetweenHalfLines) {
 }
 
 TEST_F(ProfileFile, FaultsNameTheLine) {
-  const struct { std::string rows, what; } cases[] = {
+  const struct {
+    std::string rows, what;
+  } cases[] = {
       {"", "holds no piece"},
       {"half_line,-2,-inf,-2,0,,,v0\nbump,-2,0,2,0,0,0,v0\n", "line 3"},
       {"half_line,-2,-inf,-2,0,,,v0\narc,-1,0,2,0,0,0,v0\n", "does not start where"},
