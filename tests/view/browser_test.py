@@ -10,6 +10,7 @@ import subprocess
 import sys
 import unittest
 
+sys.dont_write_bytecode = True  # no __pycache__ among the sources
 from browser import Browser, program
 
 KREPL, DIRECTORY = sys.argv[1:3]
