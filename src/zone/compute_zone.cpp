@@ -73,7 +73,7 @@ Result<Zone> compute_zone(std::shared_ptr<const Network> network, const ZoneOpti
   auto linked = zone::link_pieces(*instance, pieces, context);
   if (!linked) return linked.error();
   pieces = {};
-  zone::Rings rings = zone::contract(*instance, std::move(*linked), precision->resolution, counters);
+  zone::Rings rings = zone::contract(*instance, std::move(*linked), precision->resolution, context, counters);
   if (network->has_polygons()) rings = zone::drop_rings_inside_polygons(*network, std::move(rings));
   if (context.cancelled()) return cancelled;
   const auto nesting = zone::nest(*instance, rings, context);

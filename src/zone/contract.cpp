@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/parallel.hpp"
 #include "zone/crossing.hpp"
 #include "zone/rings.hpp"
 
 namespace krepl::zone {
 namespace {
 
-double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
+double distance(Point p, Point q) { return length(Vector<double>{p.x - q.x, p.y - q.y}); }
 
 /// One ring while it is being contracted: a doubly linked list, so that contracting k of n pieces costs O(n + k).
 struct Chain {
@@ -143,15 +144,23 @@ double twice_area(const Instance& in, Index element, Point p, Point q, Point bas
   return triangle + r * r * (angle - std::sin(angle));
 }
 
-Rings contract(const Instance& instance, Rings rings, double resolution, ZoneCounters& counters) {
+Rings contract(const Instance& instance, Rings rings, double resolution, const Context& context,
+               ZoneCounters& counters) {
   Contraction contraction(instance, resolution, counters);
+  std::vector<char> needs_work(rings.ring_count());
+  Context quiet;
+  quiet.threads = context.threads;
+  kernel::parallel_blocks(quiet, rings.ring_count(), 64, [&](std::size_t from, std::size_t last) {
+    for (std::size_t r = from; r < last; ++r) needs_work[r] = contraction.needs_work(rings, Index(r));
+  });
   Index to = 0;  // rings are moved down in place
   std::vector<Index> begin{0};
   Chain chain;
   for (Index r = 0; r < rings.ring_count(); ++r) {
     const Index first = rings.begin[r], last = rings.begin[r + 1];
-    if (!contraction.needs_work(rings, r)) {
+    if (!needs_work[r]) {
       for (Index e = first; e < last; ++e, ++to) {
+        if (e == to) continue;
         rings.element[to] = rings.element[e];
         rings.vertex[to] = rings.vertex[e];
       }

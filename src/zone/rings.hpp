@@ -27,7 +27,7 @@ Result<Rings> link_pieces(const Instance& instance, const std::vector<Piece>& pi
 
 /// Contracts pieces shorter than `resolution` or that stray from the element on both sides of them by less, and drops rings
 /// that are thinner; counts both. O(pieces).
-Rings contract(const Instance& instance, Rings rings, double resolution, ZoneCounters& counters);
+Rings contract(const Instance& instance, Rings rings, double resolution, const Context& context, ZoneCounters& counters);
 
 /// Twice the signed area that piece e of the ring contributes relative to `base` (Green's theorem, arcs included).
 double twice_area(const Instance& instance, Index element, Point start, Point end, Point base);
