@@ -1,6 +1,6 @@
 // Nanoseconds per segment of the profile engine, beside the time that moving the same bytes takes.
 //
-// Names are profile/WAY/KIND/R:radius/n:segments. The storage is reused between runs and touched before the first, as in
+// Times are of a whole run; table.py divides. Names are profile/WAY/KIND/R:radius/n:segments. The storage is reused between runs and touched before the first, as in
 // a program that computes many profiles. n = 1e8 (4.8 GB of pieces and points) only with KREPL_BENCH_LARGE=1.
 #include <benchmark/benchmark.h>
 
@@ -32,8 +32,6 @@ std::span<ProfilePiece> storage(std::size_t points) {
 }
 
 void report(benchmark::State& state, std::size_t segments, std::size_t pieces, const ProfileCounters* counters) {
-  state.counters["ns_per_segment"] =
-      benchmark::Counter(double(segments) * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   state.counters["pieces_per_segment"] = double(pieces) / double(segments);
   if (counters == nullptr) return;
   state.counters["pops_per_segment"] = double(counters->pops) / double(segments);

@@ -10,7 +10,7 @@
 
 namespace krepl::input {
 
-/// A zone as found in a file, for verification and viewing: plain coordinates, nothing computed by an engine.
+/// Zones as found in a file, for verification and viewing: plain coordinates, nothing computed by an engine.
 struct ResultPiece {
   bool arc = false;
   Point start;
@@ -34,7 +34,8 @@ struct ResultZone {
   std::string crs;               ///< name of the coordinate system, empty if unknown
 };
 
-/// Reads the zones in a vector file that krepl (or other software) wrote: one per feature, true curves kept.
+/// Reads the zones in a vector file that krepl (or other software) wrote: one per feature, true curves kept; features of equal
+/// radius make one zone.
 Result<std::vector<ResultZone>> read_zones(const std::string& path);
 
 }  // namespace krepl::input

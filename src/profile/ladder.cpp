@@ -112,18 +112,36 @@ int direction_turn(const Entry& before, const Later& next) {
   return sign_beyond(first - second, Real(8 * epsilon<Real>) * (magnitude(first) + magnitude(second)));
 }
 
-/// Opposite directions can only be vertical: up then down is a spike that shows its arc, down then up is closed.
-int opposite_or_equal(const Point& start_normal, Vec<double> d2) {
-  if (d2.x != 0) return 0;
-  const bool up_before = start_normal.x < 0, up_after = d2.y > 0;
-  if (up_before == up_after) return 0;
-  return up_before ? -1 : 1;
+/// Normals with no turn between them are equal (0) or opposite. Opposite ones are horizontal: up then down is a spike that
+/// shows its arc (-1), down then up a slit that is closed (1).
+int opposite_or_equal(Point start_normal, Vec<double> d2) {
+  const double cosine = start_normal.y * d2.x - start_normal.x * d2.y;
+  if (cosine >= 0) return 0;
+  return start_normal.x < 0 ? -1 : 1;
+}
+
+/// Whether p and `next` are walls at one place that go the same way, so that their offset sides lie on one line.
+bool same_wall(const Entry& p, const Later& next) {
+  const bool up = p.label == left_half_line || p.b.y > p.a.y;
+  return is_side(p.label) && p.a.x == p.b.x && next.a.x == next.b.x && up == (next.b.y > next.a.y);
+}
+
+/// Whether the side of `next`, whose end is known to be on the line of p's side, lies on it as a whole, goes the same way
+/// and reaches further: then it shows from where p ends.
+bool goes_on(const Entry& p, const Later& next, double r) {
+  if (!is_side(p.label)) return false;
+  const Real radius = r;
+  const Vec<Real> along = exact_difference(next.b, next.a), u = direction(p);
+  const Vec<Real> d = exact_difference(next.a, p.a);
+  const Real gap = radius - dot(d + radius * left_of(frame_of(along).u), left_of(u));
+  if (magnitude(gap) > Real(32 * epsilon<Real>) * (extent(d) + radius)) return false;
+  return dot(along, u) > 0.0 && dot(exact_difference(next.b, p.b), u) > 0.0;
 }
 
 /// Where two walls at one place overlap the earlier one stays, although the later one lies over its start too: the rule
 /// must not depend on where the start is, or blocks would decide otherwise than the whole.
 bool earlier_wall_stays(const Entry& before, const Entry& p, const Later& next, double radius) {
-  if (!is_side(p.label) || p.a.x != p.b.x || next.a.x != next.b.x || (p.b.y > p.a.y) != (next.b.y > next.a.y)) return false;
+  if (!same_wall(p, next)) return false;
   const Real rest = magnitude(exact_difference(p.b, p.a).y) - start_of(before, p, radius).t;
   return rest > Real(32 * epsilon<Real>) * Real(radius + std::fabs(p.b.y - p.a.y));
 }
@@ -149,7 +167,7 @@ int precise_beyond(const Entry& p, const Later& next, double radius, ProfileCoun
   ++counters.in_double_double;
   if (const int answer = beyond(p, next, radius); answer != 0) return answer;
   ++counters.ties;
-  return -1;
+  return goes_on(p, next, radius) ? -1 : 1;
 }
 
 int precise_turn(const Entry& before, const Entry& arc, bool tangent, const Later& next, double radius,

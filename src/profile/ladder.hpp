@@ -21,11 +21,11 @@ struct Start {
 Start precise_start(const Entry& p, const Later& next, bool on_circle, double radius, ProfileCounters& counters);
 
 /// Whether the start of p (which follows `before`) lies below the boundary of the segment's own sum: 1 yes, -1 no; a tie
-/// counts as yes, so pieces of length zero vanish.
+/// counts as yes, so pieces of length zero vanish; but of two walls at one place the earlier one stays.
 int precise_covered(const Entry& before, const Entry& p, const Later& next, double radius, ProfileCounters& counters);
 
 /// Whether the side of `next` stays below the curve of p over its whole length, so that the crossing lies on the circle
-/// about next.b: 1 yes, -1 no; a tie counts as no.
+/// about next.b: 1 yes, -1 no; a tie counts as yes, so sides of length zero do not come to be.
 int precise_beyond(const Entry& p, const Later& next, double radius, ProfileCounters& counters);
 
 /// Whether the side of `next` touches the circle of `arc` (at next.a, following `before`) after its start: -1 yes, the arc

@@ -109,7 +109,8 @@ bool contains(const Instance& in, Index site, const Hull& hull) {
 /// Works through a block of elements in order; remembers which sites covered the last ones.
 class Worker {
  public:
-  Worker(const Instance& instance, const SiteTree& tree) : in_(instance), tree_(tree) {
+  Worker(const Instance& instance, const SiteTree& tree, const Context& context)
+      : in_(instance), tree_(tree), context_(context) {
     // A hull's corners are off by a few units in the last place of the coordinates; where that is not far below the slack
     // that contains() leaves, nothing is covered "at once" and the error-bounded way decides.
     quick_ = instance.extent() * 0x1p-50 < instance.radius() * contains_slack * 0.01;
@@ -118,6 +119,7 @@ class Worker {
   void run(Index first, Index last, std::vector<Piece>& out, ZoneCounters& counters) {
     for (Index e = first; e < last; ++e) {
       if (e % group == 0 || e == first || e == in_.side_count()) {
+        if (context_.cancelled()) return;
         group_end_ = std::min(last, e - e % group + group);
         has_frontier_ = false;
       }
@@ -238,6 +240,7 @@ class Worker {
 
   const Instance& in_;
   const SiteTree& tree_;
+  const Context& context_;
   bool quick_;
   Index group_end_ = 0;
   bool has_frontier_ = false;
@@ -271,7 +274,7 @@ std::vector<Piece> uncovered_pieces(const Instance& instance, const SiteTree& tr
   kernel::Progress progress(context, n);
   const bool done = kernel::parallel_blocks(context, n, block, [&](std::size_t first, std::size_t last) {
     Part& part = parts[first / block];
-    Worker(instance, tree).run(Index(first), Index(last), part.pieces, part.counters);
+    Worker(instance, tree, context).run(Index(first), Index(last), part.pieces, part.counters);
     progress.add(last - first);
   });
   std::vector<Piece> all;

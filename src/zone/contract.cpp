@@ -81,7 +81,10 @@ class Contraction {
 
   /// True if the ring encloses nothing that the coordinates can tell.
   bool is_thin(const Chain& c) const {
-    if (c.count == 1) return c.from[c.head] != c.element[c.head] && !is_long(c, c.head);  // all but full circles
+    if (c.count == 1) {  // all but full circles
+      const Index e = c.element[c.head];
+      return (c.from[c.head] != e || c.to[c.head] != e) && !is_long(c, c.head);
+    }
     double area = 0, perimeter = 0, across = 0;
     Index i = c.head;
     do {
