@@ -101,7 +101,7 @@ struct ZoneOptions {
 
 /// The zone of a network by the covered-intervals engine (thesis section 3.3 in a robust form; docs/zone.md).
 ///
-/// The topology is exactly that of an instance whose vertices are within 2^-80 S and whose radius is 2^-48 S (or 4 units
+/// The topology is exactly that of an instance whose vertices are within 2^-72 S and whose radius is 2^-48 S (or 4 units
 /// in the last place of the coordinates) above the given one, so zones that touch merge and degenerate input needs no care.
 /// Polygons of the network are filled. Errors: radius not finite and positive, or finer than the coordinates' resolution;
 /// cancelled; a result that does not certify. Expected O(n log n); memory about 300 bytes per segment at most.

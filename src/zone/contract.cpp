@@ -19,11 +19,10 @@ struct Chain {
   Index count = 0;
   Index head = 0;
 
-  void assign(const Rings& rings, Index first, Index last) {
-    element.assign(rings.element.begin() + first, rings.element.begin() + last);
-    vertex.assign(rings.vertex.begin() + first, rings.vertex.begin() + last);
-    count = last - first;
-    head = 0;
+  Chain(const Rings& rings, Index first, Index last)
+      : element(rings.element.begin() + first, rings.element.begin() + last),
+        vertex(rings.vertex.begin() + first, rings.vertex.begin() + last),
+        count(last - first) {
     before.resize(count);
     after.resize(count);
     for (Index i = 0; i < count; ++i) {
@@ -50,8 +49,7 @@ struct Chain {
 
 class Contraction {
  public:
-  Contraction(const Instance& instance, double resolution, ZoneCounters& counters)
-      : in_(instance), resolution_(resolution), counters_(counters) {}
+  Contraction(const Instance& instance, double resolution) : in_(instance), resolution_(resolution) {}
 
   /// Rings that need nothing, nearly all of them, are told by one pass.
   bool needs_work(const Rings& rings, Index ring) const {
@@ -66,10 +64,12 @@ class Contraction {
     return false;
   }
 
-  void run(Chain& c) {
+  /// The number of pieces contracted.
+  std::uint64_t run(Chain& c) const {
+    std::uint64_t collapsed = 0;
     Index settled = 0;  // pieces in a row up to i that need nothing
     for (Index i = c.head; settled < c.count && c.count > 1;) {
-      if (step(c, i)) {  // only the neighbourhood has to be looked at again
+      if (step(c, i, collapsed)) {  // only the neighbourhood has to be looked at again
         i = c.before[c.before[c.before[i]]];
         settled = settled > 3 ? settled - 3 : 0;
       } else {
@@ -77,6 +77,7 @@ class Contraction {
         ++settled;
       }
     }
+    return collapsed;
   }
 
   /// True if the ring encloses nothing that the coordinates can tell.
@@ -101,7 +102,7 @@ class Contraction {
   /// An arc or line between two points of another piece's element, `chord` apart, is within the resolution of it.
   bool strays_little(double chord) const { return chord * chord <= 4 * in_.radius() * resolution_; }
 
-  bool step(Chain& c, Index i) {
+  bool step(Chain& c, Index i, std::uint64_t& collapsed) const {
     const Index before = c.before[i], after = c.after[i];
     if (c.element[before] == c.element[i]) {  // a full circle's start, or what a contraction left
       c.to[before] = c.to[i];
@@ -116,7 +117,7 @@ class Contraction {
     // Many short pieces in a row must not carry the end of the one before them along.
     if (!bump && chord > 0 && distance(c.end[before], c.vertex[after]) > 4 * resolution_) return false;
     c.erase(i);
-    ++counters_.collapsed_pieces;
+    ++collapsed;
     return true;
   }
 
@@ -128,7 +129,6 @@ class Contraction {
 
   const Instance& in_;
   double resolution_;
-  ZoneCounters& counters_;
 };
 
 }  // namespace
@@ -149,38 +149,39 @@ double twice_area(const Instance& in, Index element, Point p, Point q, Point bas
 
 Rings contract(const Instance& instance, Rings rings, double resolution, const Context& context,
                ZoneCounters& counters) {
-  Contraction contraction(instance, resolution, counters);
-  std::vector<char> needs_work(rings.ring_count());
+  const Contraction contraction(instance, resolution);
+  const Index count = Index(rings.ring_count());
+  std::vector<Index> length(count);  // of each ring afterwards; its pieces are kept at its old place
+  std::vector<std::uint64_t> collapsed(count, 0);
   Context quiet;
   quiet.threads = context.threads;
-  kernel::parallel_blocks(quiet, rings.ring_count(), 64, [&](std::size_t from, std::size_t last) {
-    for (std::size_t r = from; r < last; ++r) needs_work[r] = contraction.needs_work(rings, Index(r));
-  });
-  Index to = 0;  // rings are moved down in place
-  std::vector<Index> begin{0};
-  Chain chain;
-  for (Index r = 0; r < rings.ring_count(); ++r) {
+  kernel::parallel_blocks(quiet, count, 1, [&](std::size_t r, std::size_t) {
     const Index first = rings.begin[r], last = rings.begin[r + 1];
-    if (!needs_work[r]) {
-      for (Index e = first; e < last; ++e, ++to) {
-        if (e == to) continue;
-        rings.element[to] = rings.element[e];
-        rings.vertex[to] = rings.vertex[e];
-      }
-      begin.push_back(to);
-      continue;
-    }
-    chain.assign(rings, first, last);
-    contraction.run(chain);
-    if (contraction.is_thin(chain)) {
-      ++counters.dropped_rings;
-      continue;
-    }
-    for (Index i = chain.head, left = chain.count; left > 0; i = chain.after[i], --left, ++to) {
+    length[r] = last - first;
+    if (!contraction.needs_work(rings, Index(r))) return;
+    Chain chain(rings, first, last);
+    collapsed[r] = contraction.run(chain);
+    length[r] = contraction.is_thin(chain) ? 0 : chain.count;
+    Index to = first, i = chain.head;
+    for (Index left = length[r]; left > 0; --left, ++to, i = chain.after[i]) {
       rings.element[to] = chain.element[i];
       rings.vertex[to] = chain.vertex[i];
     }
-    begin.push_back(to);
+  });
+  Index to = 0;  // rings are moved down in place
+  std::vector<Index> begin{0};
+  for (Index r = 0; r < count; ++r) {
+    counters.collapsed_pieces += collapsed[r];
+    if (length[r] == 0) {
+      ++counters.dropped_rings;
+      continue;
+    }
+    const Index first = rings.begin[r];
+    if (first != to) {
+      std::copy_n(rings.element.begin() + first, length[r], rings.element.begin() + to);
+      std::copy_n(rings.vertex.begin() + first, length[r], rings.vertex.begin() + to);
+    }
+    begin.push_back(to += length[r]);
   }
   rings.element.resize(to);
   rings.vertex.resize(to);

@@ -29,7 +29,7 @@ Instance::Instance(const Network& network, double nominal_radius, double radius,
       radius_(radius),
       nominal_condition_(4 * (radius - nominal_radius) / resolution),
       extent_(network.extent()),
-      jitter_(std::max(0x1p-80 * network.extent(), 0x1p-95 * radius)),  // well above what 113 bits resolve
+      jitter_(std::max(0x1p-72 * network.extent(), 0x1p-88 * radius)),  // well above what 113 bits resolve
       sectors_(network.vertices().size(), Sector{none, none}) {
   find_sectors(context);
 }

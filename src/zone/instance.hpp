@@ -26,7 +26,7 @@ Real length(Vector<Real> v) {
 
 /// The concrete, non-degenerate instance whose topology is computed (docs/zone.md, "One instance").
 ///
-/// Vertices are the network's, moved by at most jitter(), 2^-80 of the extent or 2^-95 R, in a direction that is a hash of their
+/// Vertices are the network's, moved by at most jitter(), 2^-72 of the extent or 2^-88 R, in a direction that is a hash of their
 /// coordinates; the radius is enlarged by 2^-48 S or 4 units in the last place of the coordinates, whichever is more.
 /// Double precision sees the unmoved vertices and counts the move as an error; quadruple precision sees the moved ones. So every
 /// decision is about the same instance, and decisions taken at different elements cannot contradict each other.

@@ -51,8 +51,8 @@ bool SideElement<Real>::add_disc(Covers<Real>& out, Index vertex, Index site) co
   const Real square_error = 8 * radius_ * e;
   if (square < -square_error) return false;
   const bool certain = square > 4 * square_error;
-  const Real half = certain ? square_root(square) : square_root(absolute(square) + square_error);
-  const Real error = certain ? e + square_error / half : 2 * half + e;
+  const Real half = square_root(std::max<Real>(square, 0));
+  const Real error = certain ? e + square_error / half : 3 * square_root(absolute(square) + square_error) + e;
   const Index label = instance_.circle(vertex);
   out.add({{q.x - half, error, label, certain}, {q.x + half, error, label, certain}, site});
   return true;
@@ -88,9 +88,8 @@ bool SideElement<Real>::add_end(CoverEnd<Real>& end, Real numerator, Real numera
     end.at = q.x + direction * half;
     end.error = e + square_error / half;
   } else {
-    const Real half = square_root(absolute(square) + square_error);
-    end.at = q.x;
-    end.error = 2 * half + e;
+    end.at = q.x + direction * square_root(std::max<Real>(square, 0));
+    end.error = 3 * square_root(absolute(square) + square_error) + e;
     certain = false;
   }
   if (!certain) {  // the touching point may lie inside the segment, as far as the errors allow
