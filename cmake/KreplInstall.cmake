@@ -10,12 +10,8 @@ install(TARGETS krepl EXPORT kreplTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/krepl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 
-# The package asks its users for what the library's interface names, no more.
-get_target_property(krepl_interface krepl INTERFACE_LINK_LIBRARIES)
+# A static library hands its own needs on to those who link it.
 set(krepl_dependencies "find_dependency(TBB)")
-if(krepl_interface MATCHES "Boost::")
-  string(APPEND krepl_dependencies "\nfind_dependency(Boost)")
-endif()
 
 set(krepl_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/krepl)
 install(EXPORT kreplTargets NAMESPACE krepl:: DESTINATION ${krepl_package_dir})

@@ -42,11 +42,12 @@ int usage_error(const CLI::App& program, const CLI::ParseError& error) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App program{"Exact Minkowski sums with a ball: buffer zones with true arcs, offset profiles", "krepl"};
+  CLI::App program{"Exact Minkowski sums with a ball: buffer zones with true arcs, offset profiles and surfaces", "krepl"};
   krepl::app::Session session;
   describe(program);
   krepl::app::add_buffer_verb(program, session);
   krepl::app::add_profile_verb(program, session);
+  krepl::app::add_terrain_verb(program, session);
   krepl::app::add_verify_verb(program, session);
   krepl::app::add_view_verb(program, session);
   add_footer(program);

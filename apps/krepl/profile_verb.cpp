@@ -18,7 +18,7 @@ namespace krepl::app {
 namespace {
 
 struct ProfileOptions {
-  input::TerrainRequest input;
+  input::TerrainLineRequest input;
   std::string output, radius, format;
 };
 
@@ -76,7 +76,7 @@ int run_profile(const ProfileOptions& options, Session& session) {
 
   const std::string in_name = options.input.path == "-" ? "standard input" : options.input.path;
   const std::string out_name = options.output == "-" ? "standard output" : options.output;
-  Result<input::TerrainData> data = input::read_terrain(options.input, session.context("reading"));
+  Result<input::TerrainLine> data = input::read_terrain_line(options.input, session.context("reading"));
   if (!data) return session.fail(in_name, data.error());
   for (const std::string& note : data->notes) session.note(in_name, note);
   session.detail(fmt::format("read       {:.3f} s: {} points", seconds_since(start), data->points.size()));

@@ -138,7 +138,7 @@ int verify_profile(const VerifyOptions& options, Session& session) {
   auto pieces = input::read_profile(options.result);
   if (!pieces) return session.fail(options.result, pieces.error());
   auto terrain =
-      input::read_terrain({options.input.path, options.input.layer, options.input.where}, session.context("reading"));
+      input::read_terrain_line({options.input.path, options.input.layer, options.input.where}, session.context("reading"));
   session.finish_progress();
   if (!terrain) return session.fail(options.input.path, terrain.error());
 

@@ -1,7 +1,8 @@
 // Nanoseconds per segment of the profile engine, beside the time that moving the same bytes takes.
 //
-// Times are of a whole run; table.py divides. Names are profile/WAY/KIND/R:radius/n:segments. The storage is reused between runs and touched before the first, as in
-// a program that computes many profiles. n = 1e8 (4.8 GB of pieces and points) only with KREPL_BENCH_LARGE=1.
+// Times are of a whole run; table.py divides. Names are profile/WAY/KIND/R:radius/n:segments. The storage is reused between
+// runs and touched before the first, as in a program that computes many profiles. n = 1e8 (4.8 GB of pieces, 1.6 GB of
+// points) only with KREPL_BENCH_LARGE=1.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

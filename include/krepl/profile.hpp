@@ -22,8 +22,10 @@ namespace krepl {
 /// [x0 - R, xn + R]; its upper boundary is a chain of pieces from left to right: a half-line up from -inf, offset segments
 /// and clockwise arcs, a half-line down to -inf. It has at most 2n + 2 vertices (theorem 2.3.4).
 ///
-/// Every vertex is correct to a few units in the last place of the coordinates and of R. Pieces too short to be seen in
-/// double precision are left out; neighbours then share the vertex.
+/// Every vertex is correct to a few units in the last place of the coordinates and of R, measured as its distance from both
+/// curves that meet in it. Along them, where they are nearly tangent, its place is certain to 2^-42 (R + d) only, d the sum
+/// |dx| + |dy| between the two input vertices that cause it (2^-48 (R + d) on ordinary data). Pieces too short to be seen
+/// in double precision are left out; neighbours then share the vertex.
 struct ProfilePiece {
   enum class Kind : std::uint8_t { half_line, segment, arc };
   Point start;          ///< the piece ends where the next one starts
@@ -61,11 +63,13 @@ constexpr std::size_t profile_capacity(std::size_t points) { return 2 * points +
 /// What the work cost and how often each rung of the ladder of predicates was needed.
 struct ProfileCounters {
   std::uint64_t segments = 0;           ///< segments of positive length
-  std::uint64_t pops = 0;               ///< pieces hidden by a later segment
+  /// Pieces that a later segment took off the stack. Not counted: the arc at that segment's own start, which every valley
+  /// hides, and what joining blocks drops. Counted twice: pops by repeated segments.
+  std::uint64_t pops = 0;
   std::uint64_t in_double_double = 0;   ///< decisions and crossings that double precision left open
   std::uint64_t ties = 0;               ///< of those, true ties: the piece of length zero is dropped
   std::uint64_t collapsed_pieces = 0;   ///< pieces dropped because they have no length in double precision
-  std::uint64_t largest_stack = 0;      ///< most pieces held at once (sequential and streaming: the window's size)
+  std::uint64_t largest_stack = 0;      ///< most pieces open at once (the window's size), or kept by a block for joining
   std::uint64_t replayed_segments = 0;  ///< segments done twice where blocks could not be joined at once (parallel)
 };
 
@@ -110,8 +114,9 @@ struct Profile {
 /// ProfileEngine::compute with storage of its own; the same errors.
 Result<Profile> compute_profile(std::vector<Point> terrain, double radius, const Context& context = {});
 
-/// The same computation for a terrain that does not fit into memory, or does not end: points go in, and each piece comes
-/// out as soon as no later point can change it. Holds the open window of width R only; the same bits as ProfileEngine.
+/// The same computation for a terrain that does not fit into memory, or is still being measured: points go in, at most
+/// 2^31 - 1 of them, and each piece comes out as soon as no later point can change it. Holds the open window of width R
+/// only; the same bits as ProfileEngine.
 class ProfileStream {
  public:
   /// Called with finished pieces, from left to right.

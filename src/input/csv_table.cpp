@@ -1,13 +1,9 @@
 #include "input/csv_table.hpp"
 
-#include <cpl_vsi.h>
-
 #include <charconv>
 #include <cmath>
-#include <memory>
 
-#include "input/geometry_source.hpp"
-#include "ogr/message_capture.hpp"
+#include "input/whole_file.hpp"
 
 namespace krepl::input {
 
@@ -26,33 +22,10 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-Result<std::vector<char>> read_all(const std::string& path) {
-  std::string source = "/vsistdin/";
-  if (path != "-") {
-    Result<std::string> checked = checked_path(path);
-    if (!checked) return checked.error();
-    source = *checked;
-  }
-  ogr::initialise();
-  ogr::MessageCapture messages;
-  const std::unique_ptr<VSILFILE, int (*)(VSILFILE*)> file(VSIFOpenL(source.c_str(), "rb"), VSIFCloseL);
-  if (!file) return messages.error(ErrorCode::io, "cannot be read");
-  std::vector<char> text;
-  constexpr std::size_t portion = std::size_t{1} << 20;
-  for (std::size_t got = portion; got == portion;) {
-    const std::size_t before = text.size();
-    text.resize(before + portion);
-    got = VSIFReadL(text.data() + before, 1, portion, file.get());
-    text.resize(before + got);
-  }
-  if (messages.failed()) return messages.error(ErrorCode::io, "cannot be read to its end");
-  return text;
-}
-
 }  // namespace
 
 Result<CsvTable> CsvTable::open(const std::string& path) {
-  Result<std::vector<char>> text = read_all(path);
+  Result<std::vector<char>> text = read_whole_file(path);
   if (!text) return text.error();
   CsvTable table;
   table.text_ = std::move(*text);

@@ -1,7 +1,5 @@
 #include "input/geometry_source.hpp"
 
-#include <cpl_vsi.h>
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,7 +8,10 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 
+#include "input/memory_file.hpp"
+#include "input/whole_file.hpp"
 #include "ogr/message_capture.hpp"
 
 namespace krepl::input {
@@ -21,36 +22,6 @@ std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
 }
-
-/// Everything that comes from a stream. Interruptible: a signal makes read() return.
-Result<std::string> read_stream(int descriptor, const Context& context) {
-  std::string text;
-  std::vector<char> block(1 << 16);
-  for (;;) {
-    if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while reading", "", ""};
-    ssize_t count = ::read(descriptor, block.data(), block.size());
-    if (count == 0) return text;
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return Error{ErrorCode::io, std::string("cannot be read: ") + std::strerror(errno), "", ""};
-    text.append(block.data(), static_cast<std::size_t>(count));
-  }
-}
-
-/// A file of GDAL's in-memory file system that goes away with the source reading it.
-class MemoryFile {
- public:
-  MemoryFile(std::string text, const std::string& extension) : text_(std::move(text)) {
-    path_ = "/vsimem/krepl-" + std::to_string(reinterpret_cast<std::uintptr_t>(this)) + "." + extension;
-    VSIFCloseL(VSIFileFromMemBuffer(path_.c_str(), reinterpret_cast<GByte*>(text_.data()), text_.size(), FALSE));
-  }
-  ~MemoryFile() { VSIUnlink(path_.c_str()); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string text_, path_;
-};
 
 class StreamSource : public GeometrySource {
  public:
@@ -67,29 +38,14 @@ class StreamSource : public GeometrySource {
   std::unique_ptr<GeometrySource> source_;  // goes first: it reads the file
 };
 
-Result<std::unique_ptr<GeometrySource>> open_text(std::string text, const SourceSelection& selection) {
-  std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  if (first == std::string::npos) return Error{ErrorCode::input, "is empty", "", "give WKT or GeoJSON text"};
+Result<std::unique_ptr<GeometrySource>> open_text(std::vector<char> text, const SourceSelection& selection) {
+  std::size_t first = std::string_view(text.data(), text.size()).find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (first == std::string_view::npos) return Error{ErrorCode::input, "is empty", "", "give WKT or GeoJSON text"};
   bool json = text[first] == '{';
   auto file = std::make_unique<MemoryFile>(std::move(text), json ? "geojson" : "wkt");
   auto source = json ? open_ogr_source(file->path(), selection) : open_wkt_source(file->path());
   if (!source) return source.error();
   return std::unique_ptr<GeometrySource>(new StreamSource(std::move(file), std::move(*source)));
-}
-
-bool is_stream(const std::string& path) {
-  struct stat status {};
-  return ::stat(path.c_str(), &status) == 0 && (S_ISFIFO(status.st_mode) || S_ISCHR(status.st_mode));
-}
-
-Result<std::unique_ptr<GeometrySource>> open_stream(const std::string& path, const SourceSelection& selection,
-                                                    const Context& context) {
-  int descriptor = path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return Error{ErrorCode::io, std::string("cannot be read: ") + std::strerror(errno), "", ""};
-  Result<std::string> text = read_stream(descriptor, context);
-  if (descriptor != STDIN_FILENO) ::close(descriptor);
-  if (!text) return text.error();
-  return open_text(std::move(*text), selection);
 }
 
 /// Data sources that are directories by nature.
@@ -134,7 +90,7 @@ Result<std::string> checked_path(const std::string& path) {
 Result<std::unique_ptr<GeometrySource>> open_geometry_source(const std::string& path, const SourceSelection& selection,
                                                              const Context& context) {
   ogr::initialise();
-  bool stream = path == "-" || is_stream(path);
+  const bool stream = is_stream(path);
   std::string extension = stream ? "" : format_extension(path);
   bool plain = extension == "wkt" || extension == "wkb";
   if (plain && !selection.layer.empty()) {
@@ -143,7 +99,11 @@ Result<std::unique_ptr<GeometrySource>> open_geometry_source(const std::string& 
   if (plain && !selection.where.empty()) {
     return Error{ErrorCode::usage, "a ." + extension + " file has no fields", "", "leave out --where"};
   }
-  if (stream) return open_stream(path, selection, context);
+  if (stream) {
+    Result<std::vector<char>> text = read_whole_file(path, context);
+    if (!text) return text.error();
+    return open_text(std::move(*text), selection);
+  }
   Result<std::string> vsi_path = checked_path(path);
   if (!vsi_path) return vsi_path.error();
   if (extension == "wkt") return open_wkt_source(*vsi_path);

@@ -22,14 +22,14 @@ Error decreasing_error(double before, double x, const std::string& place) {
           "sort the points by x; a terrain has one height above each x, cliffs apart"};
 }
 
-Result<TerrainData> read_csv(const std::string& path, const Context& context) {
+Result<TerrainLine> read_csv(const std::string& path, const Context& context) {
   Result<CsvTable> table = CsvTable::open(path);
   if (!table) return table.error();
   const Result<std::size_t> x_column = table->column("x");
   if (!x_column) return x_column.error();
   const Result<std::size_t> z_column = table->column("z");
   if (!z_column) return z_column.error();
-  TerrainData data;
+  TerrainLine data;
   while (table->next()) {
     const Result<double> x = table->finite(*x_column);
     if (!x) return x.error();
@@ -58,7 +58,7 @@ const OGRSimpleCurve* only_line(const OGRGeometry& geometry) {
   }
 }
 
-Status take_line(const OGRSimpleCurve& line, const std::string& place, TerrainData& data) {
+Status take_line(const OGRSimpleCurve& line, const std::string& place, TerrainLine& data) {
   const bool heights = line.Is3D() != 0;
   double chainage = 0;
   for (int i = 0; i < line.getNumPoints(); ++i) {
@@ -74,10 +74,10 @@ Status take_line(const OGRSimpleCurve& line, const std::string& place, TerrainDa
   return std::monostate{};
 }
 
-Result<TerrainData> read_line(const TerrainRequest& request, const Context& context) {
+Result<TerrainLine> read_line(const TerrainLineRequest& request, const Context& context) {
   auto source = open_geometry_source(request.path, {request.layer, request.where}, context);
   if (!source) return source.error();
-  TerrainData data;
+  TerrainLine data;
   for (;;) {
     if (context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
     auto item = (*source)->next();
@@ -154,7 +154,7 @@ Result<ProfileRecord> profile_record(const CsvTable& table, const ProfileColumns
 
 }  // namespace
 
-Result<TerrainData> read_terrain(const TerrainRequest& request, const Context& context) {
+Result<TerrainLine> read_terrain_line(const TerrainLineRequest& request, const Context& context) {
   if (request.path == "-" || format_extension(request.path) == "csv") {
     if (!request.layer.empty() || !request.where.empty())
       return Error{ErrorCode::usage, "--layer and --where are for vector files, not for CSV", "", "leave them out"};

@@ -10,13 +10,13 @@
 
 namespace krepl::input {
 
-struct TerrainRequest {
+struct TerrainLineRequest {
   std::string path;   ///< .csv (also with .gz) with columns x and z, any OGR vector source, or `-` for CSV on standard input
   std::string layer;  ///< vector sources: needed where there is more than one
   std::string where;  ///< vector sources: OGR's SQL WHERE clause
 };
 
-struct TerrainData {
+struct TerrainLine {
   std::vector<Point> points;       ///< x and z, x never decreasing
   std::vector<std::string> notes;  ///< what the user should know
 };
@@ -28,7 +28,7 @@ struct TerrainData {
 /// heights its y is taken as z, with heights x is the length along it in the plane. Errors name the line (CSV) or the
 /// feature and vertex: missing column, missing or non-finite number, x that decreases, no point, no line or more than one,
 /// coordinates in degrees.
-Result<TerrainData> read_terrain(const TerrainRequest& request, const Context& context = {});
+Result<TerrainLine> read_terrain_line(const TerrainLineRequest& request, const Context& context = {});
 
 /// A row of a profile as found in a file, nothing computed by an engine.
 struct ProfileRecord {

@@ -7,6 +7,7 @@
 #include "kernel/hilbert.hpp"
 #include "kernel/parallel.hpp"
 #include "kernel/radix_sort.hpp"
+#include "model/exact_origin.hpp"
 
 namespace krepl {
 namespace {
@@ -22,18 +23,6 @@ struct Box {
     min_y = std::min(min_y, p.y), max_y = std::max(max_y, p.y);
   }
 };
-
-/// The middle of [low, high] rounded to a multiple of a power of two near the half width, so that subtracting it from any
-/// double in between is exact; 0 where the interval is near 0 and a shift would gain nothing and lose exactness.
-double exact_origin(double low, double high) {
-  const double middle = low / 2 + high / 2;
-  const double half = high / 2 - low / 2;
-  const double largest = std::max(std::abs(low), std::abs(high));
-  if (std::abs(middle) <= 2 * half || largest == 0) return 0;
-  const double finest = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
-  const double unit = std::ldexp(1.0, std::ilogb(std::max(half, finest)));
-  return std::rint(middle / unit) * unit;
-}
 
 /// Maps coordinates to the Hilbert curve's grid.
 class Grid {

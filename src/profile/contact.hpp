@@ -8,7 +8,8 @@
 #include "profile/element.hpp"
 
 // Where the boundary passes from one element to a later one: the closed forms, for every precision of the ladder.
-// Each is written so that no two nearly equal numbers are subtracted but those the input gives (docs/profile.md).
+// Each is written so that no two nearly equal numbers are subtracted but those the input gives (docs/profile.md). The one
+// exception is circle_to_circle in double precision; the error that it states includes it.
 namespace krepl::profile {
 
 /// Bound on the relative error of one operation.

@@ -58,7 +58,7 @@ struct ProfileEngine::State {
   std::span<const Point> terrain;
   double radius = 0;
 
-  /// Appends vertices first .. last to the main sweep. Returns the first bad one, or last + 1.
+  /// Appends vertices first .. last to the main sweep and hands out what is final. Returns the first bad one, or last + 1.
   std::size_t extend(std::size_t first, std::size_t last, PieceWriter& write) {
     while (first <= last) {
       const std::size_t count = std::min(Sweep::batch, last + 1 - first);
@@ -115,11 +115,12 @@ struct ProfileEngine::State {
     }
     std::size_t step = 16;
     for (std::size_t next = block.first + 1; !joined && next <= block.last; step = std::min(2 * step, Sweep::batch)) {
-      const std::size_t last = std::min(block.last, next + step - 1);
-      extend(next, last, write);
-      counters.replayed_segments += last + 1 - next;
-      next = last + 1;
+      const std::size_t count = std::min(step, block.last + 1 - next);
+      sweep.append(&terrain[next], count, std::uint32_t(next));
+      counters.replayed_segments += count;
+      next += count;
       joined = sweep.join_repeated(block.sweep, write);
+      if (!joined) sweep.settle(write);  // not before: what is handed out cannot agree any more
     }
     block.target = write.next;
     if (!joined) block.piece_count = 0;

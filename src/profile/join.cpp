@@ -159,7 +159,7 @@ void Sweep::splice_entries(const Sweep& right, const Splice& splice) {
   if (splice.crossing) stack_[splice.keep] = splice.entry;
   std::copy_n(right.stack_.begin() + std::ptrdiff_t(splice.from), count, stack_.begin() + std::ptrdiff_t(begin));
   top_ = begin + count - 1;
-  counters_.largest_stack = std::max<std::uint64_t>(counters_.largest_stack, size());
+  counters_.largest_stack = std::max<std::uint64_t>(counters_.largest_stack, held());
 }
 
 /// After all up to the seam was handed out: what `right` still has open is what is open here.

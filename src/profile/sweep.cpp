@@ -240,7 +240,7 @@ std::size_t Sweep::append(const Point* points, std::size_t count, std::uint32_t 
   last_length_ = top.last_length;
   counters_.pops += top.pops;
   counters_.segments += top.segments;
-  counters_.largest_stack = std::max<std::uint64_t>(counters_.largest_stack, top_ + 1 - (emitted_ - std::min(emitted_, hold_)));
+  counters_.largest_stack = std::max<std::uint64_t>(counters_.largest_stack, held());
   return good;
 }
 
@@ -260,11 +260,14 @@ void Sweep::compact() {
   emitted_ = hold_ + 1;
 }
 
-/// A block keeps all that the part left of it may still hide, and a few entries more to recognise agreement by.
+/// A block keeps all that the part left of it may still hide, and a few entries more to recognise agreement by; the last of
+/// them shows after rounding, because a join at a seam behind a dropped piece is refused.
 bool Sweep::hold_ends_at(std::size_t entry) {
   constexpr int spare = 4;
   const Point start = center_at_start(stack_[entry], radius_);
   if (!(start.x > hold_limit_) || ++beyond_limit_ <= spare) return false;
+  const Entry& before = stack_[entry - 1];
+  if (!runs_forward(before, center_at_start(before, radius_), start)) return false;
   holding_ = false;
   hold_ = entry;
   seam_ = start;

@@ -89,6 +89,8 @@ class Sweep {
   double circle_turn_bound(float error) const { return double(error) / radius_ + 8 * epsilon<double>; }
   void compact();
   bool hold_ends_at(std::size_t entry);
+  /// Entries not handed out, or kept for joining; those that only wait for being taken off do not count.
+  std::size_t held() const { return holding_ ? size() : size() - (emitted_ - hold_); }
 
   /// No later point reaches this start: it lies left of (last x) - R by more than its error.
   bool final_start(const Entry& e) const {

@@ -26,8 +26,8 @@ class Files : public testing::Test {
     std::ofstream(path, std::ios::binary) << content;
     return path.string();
   }
-  Result<input::TerrainData> terrain(const std::string& content, const std::string& name = "t.csv") {
-    return input::read_terrain({file(name, content), "", ""});
+  Result<input::TerrainLine> terrain(const std::string& content, const std::string& name = "t.csv") {
+    return input::read_terrain_line({file(name, content), "", ""});
   }
   std::string error(const std::string& content, const std::string& name = "t.csv") {
     const auto data = terrain(content, name);
@@ -62,9 +62,9 @@ TEST_F(Files, CsvErrorsNameTheLine) {
   EXPECT_EQ(error("x,z\n"), "has no points @ ");
   EXPECT_NE(error(""), "no error");
   EXPECT_NE(error("\n\n"), "no error");
-  EXPECT_FALSE(input::read_terrain({(directory_ / "missing.csv").string(), "", ""}).ok());
-  EXPECT_FALSE(input::read_terrain({directory_.string(), "", ""}).ok());
-  EXPECT_FALSE(input::read_terrain({file("u.csv", "x,z\n1,2\n"), "layer", ""}).ok());
+  EXPECT_FALSE(input::read_terrain_line({(directory_ / "missing.csv").string(), "", ""}).ok());
+  EXPECT_FALSE(input::read_terrain_line({directory_.string(), "", ""}).ok());
+  EXPECT_FALSE(input::read_terrain_line({file("u.csv", "x,z\n1,2\n"), "layer", ""}).ok());
 }
 
 TEST_F(Files, LineInAVectorFile) {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "input/terrain_reader.hpp"
+#include "krepl/error.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace krepl::app {
+
+class Session;
+
+/// The terrain to read, as every verb that takes one has it on its command line.
+struct TerrainOptions {
+  input::TerrainRequest request;
+  std::string z_scale, split;  ///< as given
+
+  std::string name() const { return request.path == "-" ? "standard input" : request.path; }
+};
+
+/// Declares IN and the options --crs, --to-crs, --z-scale, --split and --band. `options` must live until the verb has run.
+void add_terrain_options(CLI::App& verb, TerrainOptions& options);
+
+/// What the options mean; an Error of code usage names what is wrong. To be called before anything is read.
+Result<input::TerrainRequest> terrain_request(const TerrainOptions& options);
+
+/// Notes of the file and, with --verbose, what was found and left out on the way in.
+void tell_terrain(const input::TerrainFile& file, const std::string& name, double seconds, Session& session);
+
+}  // namespace krepl::app

@@ -1,0 +1,40 @@
+#pragma once
+
+// The writers behind write_surface, one a format, and what they share.
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <string>
+
+#include "krepl/context.hpp"
+#include "krepl/surface.hpp"
+#include "output/output_stream.hpp"
+#include "output/surface_file.hpp"
+
+namespace krepl::output {
+
+using SurfaceWriteResult = Result<SurfaceFileReport>;
+
+inline Error surface_interrupted() { return {ErrorCode::cancelled, "interrupted while writing", "", ""}; }
+
+inline double surface_max_error(const SurfaceFileOptions& options, double radius) {
+  return options.max_error > 0 ? options.max_error : radius / 1000;
+}
+
+const char* name_of(Surface::EdgeKind kind);
+const char* name_of(Surface::Curve curve);
+const char* name_of(Terrain::FeatureKind kind);
+
+/// Bytes of `count` items, made on all threads by put(buffer, item) and written in their order.
+Status write_items(OutputStream& stream, std::size_t count, const Context& context,
+                   const std::function<void(fmt::memory_buffer&, std::size_t)>& put);
+
+SurfaceWriteResult write_surface_json(const std::string& path, const Surface&, const SurfaceFileOptions&, const Context&);
+SurfaceWriteResult write_surface_gpkg(const std::string& path, const Surface&, const SurfaceFileOptions&, const Context&);
+SurfaceWriteResult write_surface_stl(const std::string& path, const Surface&, const SurfaceFileOptions&, const Context&);
+SurfaceWriteResult write_surface_ply(const std::string& path, const Surface&, const SurfaceFileOptions&, const Context&);
+SurfaceWriteResult write_surface_glb(const std::string& path, const Surface&, const SurfaceFileOptions&, const Context&);
+SurfaceWriteResult write_surface_png(const std::string& path, const Surface&, const SurfaceFileOptions&, const Context&);
+
+}  // namespace krepl::output

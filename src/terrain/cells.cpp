@@ -1,0 +1,313 @@
+#include "terrain/cells.hpp"
+
+#include <algorithm>
+
+namespace krepl::terrain {
+
+Cells::Cells(const PatchSet& patches, double scale, SurfaceCounters& counters, const Context& context)
+    : envelope_(patches, scale, counters), counters_(counters), context_(context) {}
+
+Index Cells::add_line(bool vertical, double at, Index start_label, const std::vector<Envelope::Crossing>& crossings) {
+  const Index first = Index(crossings_.size());
+  lines_.push_back({vertical, at, start_label, first, Index(crossings.size())});
+  for (const auto& c : crossings) crossings_.push_back({c.t, c.after, c.meeting, {}});
+  const Index pieces = piece_count();
+  for (Index p = Index(region_.size()); p < pieces; ++p) region_.push_back(p);
+  return Index(lines_.size() - 1);
+}
+
+Index Cells::region(Index piece) {
+  while (region_[piece] != piece) {
+    region_[piece] = region_[region_[piece]];
+    piece = region_[piece];
+  }
+  return piece;
+}
+
+void Cells::unite(Index a, Index b) {
+  a = region(a);
+  b = region(b);
+  if (a != b) region_[std::max(a, b)] = std::min(a, b);
+}
+
+bool Cells::run(const Box& tile, std::span<const Index> candidates) {
+  stack_.assign(candidates.begin(), candidates.end());
+  Cell cell{tile, {}};
+  for (Index i = 0; i < 4; ++i) {
+    const CellLine& line = lines_[i];
+    cell.side[i] = {i, line.first_crossing, line.first_crossing + line.crossing_count, line.start_label};
+  }
+  return subdivide(cell, 0, 0);
+}
+
+/// Collects the turns and the pieces between them, and unites pieces that meet at the cell's corners.
+void Cells::walk(const Cell& cell) {
+  turns_.clear();
+  turn_piece_.clear();
+  Index previous = none, first_piece = none;
+  const auto pass = [&](Index piece) {
+    if (previous == none) first_piece = piece;
+    else unite(previous, piece);
+    previous = piece;
+  };
+  const auto turn = [&](const Side& s, Index c, Index before, Index after, int side) {
+    const Crossing& x = crossings_[c];
+    turns_.push_back({c, side, before, after, x.meeting, place(s.line, x)});
+    turn_piece_.push_back(previous);
+  };
+  for (int i = 0; i < 4; ++i) {
+    const Side& s = cell.side[i];
+    const Index base = lines_[s.line].first_crossing;
+    const auto label_before = [&](Index c) { return c == s.first ? s.label : crossings_[c - 1].after; };
+    if (i < 2) {
+      pass(piece(s.line, s.first - base));
+      for (Index c = s.first; c < s.last; ++c) {
+        turn(s, c, label_before(c), crossings_[c].after, i == 0 ? 1 : 0);
+        previous = piece(s.line, c + 1 - base);
+      }
+    } else {
+      pass(piece(s.line, s.last - base));
+      for (Index c = s.last; c-- > s.first;) {
+        turn(s, c, crossings_[c].after, label_before(c), i == 2 ? 0 : 1);
+        previous = piece(s.line, c - base);
+      }
+    }
+  }
+  unite(previous, first_piece);
+}
+
+bool Cells::subdivide(const Cell& cell, std::size_t first, int depth) {
+  ++counters_.cells;
+  if (depth < 12 && context_.cancelled()) return false;
+  const std::size_t begin = stack_.size();
+  std::array<Index, 4> champions;
+  int count = 0;
+  for (int i = 0; i < 4; ++i) {
+    // Labels at the corners: the starts of bottom and left, the ends of right and top.
+    const Side& s = cell.side[i];
+    const bool at_end = i == 1 || i == 2;
+    const Index label = at_end && s.last > s.first ? crossings_[s.last - 1].after : s.label;
+    if (label != none && std::find(champions.begin(), champions.begin() + count, label) == champions.begin() + count) {
+      champions[count++] = label;
+    }
+  }
+  {
+    thread_local std::vector<Index> kept;
+    kept.clear();
+    envelope_.filter(cell.box, {champions.data(), std::size_t(count)}, {stack_.data() + first, begin - first}, kept);
+    stack_.insert(stack_.end(), kept.begin(), kept.end());
+  }
+  const bool smallest = cell.box.larger_side() <= envelope_.smallest_cell();
+  bool done = true;
+  if (stack_.size() - begin > 24 || !settle(cell, {stack_.data() + begin, stack_.size() - begin}, smallest)) {
+    done = split(cell, begin, depth);
+  }
+  stack_.resize(begin);
+  return done;
+}
+
+bool Cells::split(const Cell& cell, std::size_t first, int depth) {
+  const Box& box = cell.box;
+  const bool vertical = box.high.x - box.low.x >= box.high.y - box.low.y;
+  const Side &low_side = cell.side[vertical ? 0 : 3], &high_side = cell.side[vertical ? 2 : 1];
+  const double low = vertical ? box.low.x : box.low.y, high = vertical ? box.high.x : box.high.y;
+  const double at = low + (high - low) / 2;
+  if (!(at > low && at < high) || depth > 200) {
+    failed_at_ = box.middle();
+    return false;
+  }
+  const auto cut = [&](const Side& s) {
+    Index c = s.first;
+    while (c < s.last && crossings_[c].t <= at) ++c;
+    return c;
+  };
+  const auto label_at = [&](const Side& s, Index c) { return c == s.first ? s.label : crossings_[c - 1].after; };
+  const Index low_cut = cut(low_side), high_cut = cut(high_side);
+  const Index start = label_at(low_side, low_cut), end = label_at(high_side, high_cut);
+  found_.clear();
+  envelope_.section(vertical, at, vertical ? box.low.y : box.low.x, vertical ? box.high.y : box.high.x, start, end,
+                    {stack_.data() + first, stack_.size() - first}, found_);
+  const Index line = add_line(vertical, at, start, found_);
+  const Side middle{line, lines_[line].first_crossing, lines_[line].first_crossing + lines_[line].crossing_count, start};
+
+  Cell below = cell, above = cell;
+  const int a = vertical ? 0 : 3, b = vertical ? 2 : 1;
+  below.side[a].last = low_cut;
+  below.side[b].last = high_cut;
+  above.side[a] = {low_side.line, low_cut, low_side.last, start};
+  above.side[b] = {high_side.line, high_cut, high_side.last, end};
+  if (vertical) {
+    below.box.high.x = above.box.low.x = at;
+    below.side[1] = above.side[3] = middle;
+  } else {
+    below.box.high.y = above.box.low.y = at;
+    below.side[2] = above.side[0] = middle;
+  }
+  return subdivide(below, first, depth + 1) && subdivide(above, first, depth + 1);
+}
+
+bool Cells::settle(const Cell& cell, std::span<const Index> candidates, bool smallest) {
+  walk(cell);
+  if (!smallest) {
+    for (const Index c : candidates) {
+      bool seen = turns_.empty() && cell.side[0].label == c;
+      for (const Turn& t : turns_) seen = seen || t.after == c;
+      if (!seen) return false;
+    }
+  }
+  const std::size_t n = turns_.size();
+  bool settled = n == 0;
+  if (n == 2) settled = settle_arc(cell.box, smallest);
+  if (n >= 3) settled = settle_star(cell.box, smallest) || settle_strips(cell.box);
+  if (!settled) return false;
+  ++counters_.leaves;
+  if (smallest) ++counters_.smallest_cells;
+  return true;
+}
+
+void Cells::connect(const Turn& a, const Turn& b) {
+  crossings_[a.crossing].link[a.side] = Link::crossing(b.crossing, b.side);
+  crossings_[b.crossing].link[b.side] = Link::crossing(a.crossing, a.side);
+}
+
+/// True if the curve between the turn's labels cannot close inside the box: some direction is never along it.
+bool Cells::curve_is_simple(const Turn& t, const Box& box) const {
+  if (t.meeting != Meeting::valley) return box.larger_side() < envelope_.patches().radius();
+  const auto never_along = [&](double x, double y) {
+    return (envelope_.derivative_range(t.before, box, {x, y}) - envelope_.derivative_range(t.after, box, {x, y})).excludes_zero();
+  };
+  if (never_along(1, 0) || never_along(0, 1) || never_along(1, 1) || never_along(1, -1)) return true;
+  // Along an edge its cylinder rises evenly, even near the rim.
+  for (const Index l : {t.before, t.after}) {
+    const Patch& f = envelope_.patches()[l];
+    if (f.kind == Terrain::FeatureKind::edge && (never_along(f.gx, f.gy) || never_along(-f.gy, f.gx))) return true;
+  }
+  return false;
+}
+
+bool Cells::settle_arc(const Box& box, bool smallest) {
+  const Turn &a = turns_[0], &b = turns_[1];
+  if (a.meeting != b.meeting) return settle_star(box, smallest);  // where a valley ends in a wall
+  if (!smallest && !curve_is_simple(a, box)) return false;
+  connect(a, b);
+  return true;
+}
+
+/// True if the curves of both turns are sides of one patch, which lies between them.
+bool Cells::sides_of_one_patch(const Turn& s, const Turn& t, Index& patch) const {
+  if (s.meeting == Meeting::valley || t.meeting == Meeting::valley) return false;
+  for (const Index l : {s.before, s.after}) {
+    if (l == none || (l != t.before && l != t.after)) continue;
+    const auto own = [&](const Turn& turn) {  // a seam is a side of both patches, a rim one of the upper patch only
+      const Index other = turn.before == l ? turn.after : turn.before;
+      return turn.meeting == Meeting::seam || other == none ||
+             envelope_.clamped_height(l, turn.at) > envelope_.clamped_height(other, turn.at);
+    };
+    if (own(s) && own(t)) {
+      patch = l;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// True if the straight wall between two turns is nowhere reached by the other patch of the valley beside it: that one's height
+/// is concave, so its tangent bounds it.
+bool Cells::wall_stays_above(const Turn& from, const Turn& to, const Turn& valley) const {
+  const Index upper = from.before == none ? from.after : from.before;
+  const Index other = valley.before == upper ? valley.after : valley.before;
+  if ((from.before != none && from.after != none) || (valley.before != upper && valley.after != upper)) return false;
+  const PatchSet& patches = envelope_.patches();
+  if (patches[upper].kind != Terrain::FeatureKind::edge) return false;
+  const Point mid{(from.at.x + to.at.x) / 2, (from.at.y + to.at.y) / 2};
+  const double h = envelope_.clamped_height(other, mid);
+  const Gradient g = patches.gradient(other, mid);
+  for (const Point p : {from.at, to.at}) {
+    if (!(h + g.x * (p.x - mid.x) + g.y * (p.y - mid.y) < envelope_.rim_height(upper, p))) return false;
+  }
+  return true;
+}
+
+/// Curves side by side: each pair of labels meets at exactly two turns, which nest like brackets.
+bool Cells::settle_strips(const Box& box) {
+  const std::size_t n = turns_.size();
+  if (n % 2 != 0) return false;
+  std::array<int, 16> mate;
+  if (n > mate.size()) return false;
+  mate.fill(-1);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) {
+      if (turns_[i].before != turns_[j].after || turns_[i].after != turns_[j].before) continue;
+      if (mate[i] >= 0 || mate[j] >= 0 || turns_[i].meeting != turns_[j].meeting) return false;
+      mate[i] = int(j);
+      mate[j] = int(i);
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (mate[i] < 0 || !curve_is_simple(turns_[i], box)) return false;
+    for (std::size_t j = 0; j < i; ++j) {
+      const int a = std::min(int(i), mate[i]), b = std::max(int(i), mate[i]);
+      const bool in1 = a < int(j) && int(j) < b, in2 = a < mate[j] && mate[j] < b;
+      if (int(j) != mate[i] && in1 != in2) return false;
+    }
+  }
+  // No two of the curves may meet. Two sides of one patch meet only at its corners.
+  const auto apart = [&](std::size_t i, std::size_t j) {
+    const Turn &s = turns_[i], &t = turns_[j];
+    if (s.meeting == Meeting::rim && t.meeting == Meeting::valley) return wall_stays_above(s, turns_[std::size_t(mate[i])], t);
+    if (t.meeting == Meeting::rim && s.meeting == Meeting::valley) return wall_stays_above(t, turns_[std::size_t(mate[j])], s);
+    Index patch = none;
+    if (!sides_of_one_patch(s, t, patch)) return false;
+    const double slack = envelope_.smallest_cell();
+    for (const Point c : envelope_.patches().corners(patch)) {
+      if (c.x >= box.low.x - slack && c.x <= box.high.x + slack && c.y >= box.low.y - slack && c.y <= box.high.y + slack) return false;
+    }
+    return true;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Turn &s = turns_[i], &t = turns_[j];
+      if (int(j) == mate[i]) continue;
+      const bool share = s.before == t.before || s.before == t.after || s.after == t.before || s.after == t.after;
+      if (share && !apart(i, j)) return false;
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = std::size_t(mate[i]);
+    if (j < i) continue;
+    connect(turns_[i], turns_[j]);
+    // The run that ends at turn i goes on after turn j; the one that starts at turn i ends at turn j.
+    unite(turn_piece_[i], turn_piece_[(j + 1) % n]);
+    unite(turn_piece_[(i + 1) % n], turn_piece_[j]);
+  }
+  return true;
+}
+
+bool Cells::settle_star(const Box& box, bool smallest) {
+  if (!smallest) {
+    for (std::size_t i = 0; i < turns_.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (turns_[i].after == turns_[j].after) return false;
+      }
+    }
+  }
+  const std::optional<Point> p = star_point(box);
+  if (!p && !smallest) return false;
+  add_vertex(p.value_or(box.middle()));
+  return true;
+}
+
+void Cells::add_vertex(Point at) {
+  const Index v = Index(vertices_.size());
+  double z = below_everything;
+  for (const Turn& t : turns_) {
+    if (t.before != none) z = std::max(z, envelope_.clamped_height(t.before, at));
+  }
+  vertices_.push_back({{at.x, at.y, z}, Index(arms_.size()), Index(turns_.size())});
+  for (const Turn& t : turns_) {
+    crossings_[t.crossing].link[t.side] = Link::vertex(v);
+    arms_.push_back(Link::crossing(t.crossing, t.side));
+  }
+}
+
+}  // namespace krepl::terrain

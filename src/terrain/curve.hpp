@@ -1,0 +1,13 @@
+#pragma once
+
+#include "krepl/surface.hpp"
+
+namespace krepl::terrain {
+
+/// What kind of curve an edge of a surface is, from the features that the ball touches along it (engines.md, section 3).
+Surface::Curve curve_kind(const Terrain& terrain, const Surface::Edge& edge);
+
+/// The point of the edge's curve next to one that is near it.
+Point3 project_to_curve(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 near);
+
+}  // namespace krepl::terrain

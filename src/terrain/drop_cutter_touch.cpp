@@ -1,0 +1,45 @@
+// The upper rung of the drop cutter's closed forms. The same equations as in drop_cutter_touch.hpp; differences of
+// coordinates are exact here unless their exponents lie more than 60 apart.
+#include "terrain/drop_cutter_touch.hpp"
+
+namespace krepl::drop {
+
+using kernel::quad;
+using kernel::square_root;
+
+VertexTouch touch_vertex_quad(Point3 v, const Ball& ball) {
+  const quad x = quad(ball.place.x) - v.x, y = quad(ball.place.y) - v.y;
+  const quad s = quad(ball.radius) * ball.radius - (x * x + y * y);
+  if (s < 0) return {};
+  return {double(v.z + square_root(s))};
+}
+
+EdgeTouch touch_edge_quad(Point3 a, Point3 b, const Ball& ball) {
+  const quad dx = quad(b.x) - a.x, dy = quad(b.y) - a.y, dz = quad(b.z) - a.z;
+  const quad ex = quad(ball.place.x) - a.x, ey = quad(ball.place.y) - a.y;
+  const quad flat = dx * dx + dy * dy;
+  if (flat == 0) return {};
+  const quad cross = dx * ey - dy * ex, foot = (dx * ex + dy * ey) / flat;
+  const quad s = quad(ball.radius) * ball.radius - cross * cross / flat;
+  if (s < 0) return {};
+  const quad length = flat + dz * dz;
+  const quad lift = square_root(s / flat / length);
+  const quad along = foot + dz * lift;
+  if (!(along > 0 && along < 1)) return {};
+  return {double(a.z + dz * foot + length * lift), double(along)};
+}
+
+FaceTouch touch_face_quad(Point3 a, Point3 b, Point3 c, const Ball& ball) {
+  const quad ux = quad(b.x) - a.x, uy = quad(b.y) - a.y, uz = quad(b.z) - a.z;
+  const quad vx = quad(c.x) - a.x, vy = quad(c.y) - a.y, vz = quad(c.z) - a.z;
+  const quad nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+  if (!(nz > 0)) return {};
+  const quad scale = ball.radius / square_root(nx * nx + ny * ny + nz * nz);
+  const quad ex = quad(ball.place.x) - a.x - nx * scale, ey = quad(ball.place.y) - a.y - ny * scale;
+  const quad v = ex * vy - ey * vx, w = ux * ey - uy * ex;
+  const unsigned beyond = unsigned(w <= 0) | unsigned(v + w >= nz) << 1 | unsigned(v <= 0) << 2;
+  if (beyond != 0) return {nothing, 0, 0, beyond};
+  return {double(a.z + (v * uz + w * vz) / nz + nz * scale), double(v / nz), double(w / nz), 0};
+}
+
+}  // namespace krepl::drop

@@ -1,0 +1,339 @@
+#include "terrain/envelope.hpp"
+
+#include <algorithm>
+
+namespace krepl::terrain {
+
+using FeatureKind = Terrain::FeatureKind;
+
+Range operator*(Range a, Range b) {
+  const double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
+  return {std::min({p, q, r, s}), std::max({p, q, r, s})};
+}
+
+struct Envelope::Line {
+  bool vertical;
+  double at;
+  Point point(double t) const { return vertical ? Point{at, t} : Point{t, at}; }
+  Box box(double t0, double t1) const { return {point(t0), point(t1)}; }
+};
+
+Envelope::Envelope(const PatchSet& patches, double scale, SurfaceCounters& counters)
+    : patches_(patches),
+      tolerance_(0x1p-40 * scale),
+      smallest_cell_(0x1p-36 * scale),
+      noise_(0x1p-49 * scale),
+      counters_(counters) {}
+
+Index Envelope::winner(Point p, std::span<const Index> candidates) const {
+  Index best = none;
+  double highest = below_everything;
+  counters_.height_evaluations += candidates.size();
+  for (const Index c : candidates) {
+    if (!patches_.contains(c, p)) continue;
+    const double h = patches_.extended_height(c, p);
+    if (h > highest || (h == highest && best != none && patches_[c].feature < patches_[best].feature)) {
+      best = c;
+      highest = h;
+    }
+  }
+  return best;
+}
+
+Range Envelope::bound_range(const Bound& b, const Box& box) const {
+  const Point mid = box.middle();
+  const double hx = box.half_x(), hy = box.half_y();
+  const double dx = mid.x - b.at.x, dy = mid.y - b.at.y;
+  const double slack = 1e-15 * (std::fabs(dx) + std::fabs(dy) + hx + hy);
+  if (b.type == Bound::Type::line) {
+    const double value = dx * b.nx + dy * b.ny - b.c, spread = std::fabs(b.nx) * hx + std::fabs(b.ny) * hy + slack;
+    return {value - spread, value + spread};
+  }
+  const double near_x = std::max(0.0, std::fabs(dx) - hx), near_y = std::max(0.0, std::fabs(dy) - hy);
+  const double far_x = std::fabs(dx) + hx, far_y = std::fabs(dy) + hy;
+  const double square = patches_.square_radius();
+  const double near = near_x * near_x + near_y * near_y, far = far_x * far_x + far_y * far_y;
+  if (b.type == Bound::Type::disc) return {near - square - 2 * slack * far_x, far - square + 2 * slack * (far_x + far_y)};
+  const double value = dx * b.nx + dy * b.ny, spread = std::fabs(b.nx) * hx + std::fabs(b.ny) * hy + slack;
+  const Range up{std::sqrt(std::max(0.0, square - far)), std::sqrt(std::max(0.0, square - near))};
+  const Range lift = b.c >= 0 ? Range{b.c * up.low, b.c * up.high} : Range{b.c * up.high, b.c * up.low};
+  return {value - spread + lift.low, value + spread + lift.high};
+}
+
+bool Envelope::domain_meets(Index i, const Box& box) const {
+  const Patch& f = patches_[i];
+  if (box.high.x < f.low.x || box.low.x > f.high.x || box.high.y < f.low.y || box.low.y > f.high.y) return false;
+  for (const Bound& b : patches_.bounds(i)) {
+    const Range r = bound_range(b, box);
+    if (b.negative ? r.low >= 0 : r.high < 0) return false;
+  }
+  return true;
+}
+
+bool Envelope::domain_covers(Index i, const Box& box) const {
+  for (const Bound& b : patches_.bounds(i)) {
+    const Range r = bound_range(b, box);
+    if (b.negative ? r.high >= 0 : r.low < 0) return false;
+  }
+  return true;
+}
+
+void Envelope::filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
+                      std::vector<Index>& out) const {
+  const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+  const int step = box.low.x == box.high.x || box.low.y == box.high.y ? 2 : 1;  // a line has two ends
+  const Point mid = box.middle();
+  std::array<std::array<double, 4>, 4> body;
+  int bodies = 0;
+  // Where the box is large beside R nothing is hidden below one body.
+  if (box.larger_side() < 2 * patches_.radius()) {
+    for (const Index c : champions) {
+      // A patch over all of the box may hide what sticks out by less than matters. One that is not might be hidden itself, as
+      // part of another's body, by what it would hide: then only what is clearly lower.
+      const double margin = domain_covers(c, box) ? tolerance_ / 4 : -noise_;
+      bool all = true;
+      for (int i = 0; i < 4; i += step) {
+        body[bodies][i] = patches_.body_height(c, corner[i]) + margin;
+        all = all && body[bodies][i] > below_everything;
+      }
+      if (all) ++bodies;
+    }
+  }
+  const auto below_one = [&](const double (&t)[4]) {
+    for (int k = 0; k < bodies; ++k) {
+      bool all = true;
+      for (int i = 0; i < 4; i += step) all = all && body[k][i] > t[i];
+      if (all) return true;
+    }
+    return false;
+  };
+  // Below a weighted mean of two bodies, which is concave too and not above the higher one.
+  const auto below_two = [&](const double (&t)[4]) {
+    for (int k = 0; k < bodies; ++k) {
+      for (int l = k + 1; l < bodies; ++l) {
+        double low = 0, high = 1;
+        for (int i = 0; i < 4; i += step) {
+          const double slope = body[k][i] - body[l][i], need = t[i] - body[l][i];
+          if (slope > 0) low = std::max(low, need / slope);
+          else if (slope < 0) high = std::min(high, need / slope);
+          else if (need >= 0) high = -1;
+        }
+        if (low < high) return true;
+      }
+    }
+    return false;
+  };
+  for (const Index c : candidates) {
+    if (!domain_meets(c, box)) continue;
+    if (bodies > 0 && std::find(champions.begin(), champions.end(), c) == champions.end()) {
+      const double h = patches_.extended_height(c, mid);
+      if (h > below_everything) {
+        const Gradient g = patches_.gradient(c, mid);
+        const double hx = g.x * box.half_x(), hy = g.y * box.half_y();
+        const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
+        if (below_one(t) || below_two(t)) continue;
+      }
+    }
+    out.push_back(c);
+  }
+}
+
+void Envelope::section(bool vertical, double at, double from, double to, Index start, Index end,
+                       std::span<const Index> candidates, std::vector<Crossing>& out) {
+  ++counters_.lines;
+  out_ = &out;
+  stack_.assign(candidates.begin(), candidates.end());
+  section(Line{vertical, at}, from, start, to, end, 0, 0);
+}
+
+/// stack_[first ..]: the candidates of the stretch around this one.
+void Envelope::section(const Line& line, double t0, Index l0, double t1, Index l1, std::size_t first, int depth) {
+  const std::size_t begin = stack_.size();
+  const std::array<Index, 2> ends{l0, l1};
+  std::array<Index, 2> champions;
+  int count = 0;
+  for (const Index l : ends) {
+    if (l != none && (count == 0 || champions[0] != l)) champions[count++] = l;
+  }
+  {
+    // filter() appends to the vector it reads from.
+    thread_local std::vector<Index> kept;
+    kept.clear();
+    filter(line.box(t0, t1), {champions.data(), std::size_t(count)}, {stack_.data() + first, begin - first}, kept);
+    stack_.insert(stack_.end(), kept.begin(), kept.end());
+  }
+  bool others = false;
+  for (std::size_t i = begin; i < stack_.size(); ++i) others = others || (stack_[i] != l0 && stack_[i] != l1);
+  const bool tiny = t1 - t0 <= smallest_cell_ || depth > 60;
+  if (l0 == l1 && (tiny || (!others && l0 != none))) {
+    // One label only: its domain may have a notch, but then another label would be left.
+    stack_.resize(begin);
+    return;
+  }
+  if (l0 == l1 && l0 == none && stack_.size() == begin) return;
+  if (l0 != l1 && (tiny || (!others && single_crossing(line, t0, l0, t1, l1)))) {
+    Meeting how = Meeting::rim;
+    const double t = tiny ? (t0 + t1) / 2 : locate(line, t0, l0, t1, l1, how);
+    if (tiny) how = meeting(l0, l1, line.point(t));
+    out_->push_back({t, l1, how});
+    stack_.resize(begin);
+    return;
+  }
+  const double tm = t0 + (t1 - t0) / 2;
+  const Index lm = winner(line.point(tm), {stack_.data() + begin, stack_.size() - begin});
+  section(line, t0, l0, tm, lm, begin, depth + 1);
+  section(line, tm, lm, t1, l1, begin, depth + 1);
+  stack_.resize(begin);
+}
+
+/// True if the two labels, the only ones left, certainly change once. Concave heights have descending derivatives.
+bool Envelope::single_crossing(const Line& line, double t0, Index l0, double t1, Index l1) const {
+  if (l0 == none || l1 == none) return t1 - t0 < patches_.radius() / 16;
+  if (patches_.seam(l0, l1) != nullptr) return true;
+  const Point p = line.point(t0), q = line.point(t1);
+  const auto slope = [&](Index l, Point at) {
+    const Gradient g = patches_.gradient(l, at);
+    return line.vertical ? g.y : g.x;
+  };
+  const bool whole = patches_.contains(l0, p) && patches_.contains(l0, q) && patches_.contains(l1, p) && patches_.contains(l1, q);
+  if (!whole) return t1 - t0 < patches_.radius() / 16;
+  const Range first{slope(l0, q), slope(l0, p)}, second{slope(l1, q), slope(l1, p)};
+  return (second - first).excludes_zero();
+}
+
+double Envelope::clamped_height(Index i, Point p) const {
+  const double h = patches_.extended_height(i, p);
+  return h > below_everything ? h : rim_height(i, p);
+}
+
+double Envelope::rim_height(Index i, Point p) const {
+  const Patch& f = patches_[i];
+  if (f.kind == FeatureKind::vertex) return f.z;
+  return f.z + f.m * ((p.x - f.at.x) * f.gx + (p.y - f.at.y) * f.gy);
+}
+
+Meeting Envelope::meeting(Index a, Index b, Point p) const {
+  if (a == none || b == none) return Meeting::rim;
+  if (patches_.seam(a, b) != nullptr) return Meeting::seam;
+  const double difference = clamped_height(a, p) - clamped_height(b, p);
+  const Gradient g = patches_.gradient(a, p), h = patches_.gradient(b, p);
+  const double steep = 1 + std::hypot(g.x - h.x, g.y - h.y);
+  return std::fabs(difference) <= 64 * tolerance_ * steep ? Meeting::valley : Meeting::rim;
+}
+
+/// The place of the one change from l0 to l1, by bisection on the function that changes its sign there, faster by the secant.
+double Envelope::locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& how) const {
+  const Bound* seam = l0 != none && l1 != none ? patches_.seam(l0, l1) : nullptr;
+  const bool heights = seam == nullptr && l0 != none && l1 != none;
+  const auto value = [&](double t) {  // positive on the side of l0
+    const Point p = line.point(t);
+    if (seam != nullptr) return (seam->negative ? -1 : 1) * seam->value(p, patches_.square_radius());
+    return patches_.extended_height(l0, p) - patches_.extended_height(l1, p);
+  };
+  const Index two[2] = {l0, l1};
+  const std::span<const Index> both(two + (l0 == none), (l0 != none) + (l1 != none));
+  double a = t0, b = t1;
+  bool smooth = seam != nullptr;
+  if (heights) {
+    const Point p = line.point(a), q = line.point(b);
+    smooth = patches_.contains(l0, q) && patches_.contains(l1, p);
+  }
+  double fa = 0, fb = 0;
+  if (smooth) {
+    fa = value(a);
+    fb = value(b);
+    smooth = std::isfinite(fa) && std::isfinite(fb) && ((fa > 0) != (fb > 0));
+  }
+  if (!smooth) {  // a domain ends in between: ask who is higher
+    for (int i = 0; i < 60 && b - a > 0; ++i) {
+      const double m = a + (b - a) / 2;
+      if (m == a || m == b) break;
+      (winner(line.point(m), both) == l0 ? a : b) = m;
+    }
+    how = meeting(l0, l1, line.point((a + b) / 2));
+    return a + (b - a) / 2;
+  }
+  how = seam != nullptr ? Meeting::seam : Meeting::valley;
+  // Illinois: the secant, halving the value of the end that stays so that both ends move.
+  double last = (a + b) / 2;
+  for (int i = 0, side = 0; i < 80; ++i) {
+    double m = a - fa * (b - a) / (fb - fa);
+    if (!(m > a && m < b) || i % 16 == 15) m = a + (b - a) / 2;
+    if (m == a || m == b || std::fabs(m - last) <= 0x1p-52 * std::fabs(m)) break;
+    last = m;
+    const double fm = value(m);
+    if (fm == 0) break;
+    if ((fm > 0) == (fa > 0)) {
+      a = m;
+      fa = fm;
+      if (side < 0) fb /= 2;
+      side = -1;
+    } else {
+      b = m;
+      fb = fm;
+      if (side > 0) fa /= 2;
+      side = 1;
+    }
+  }
+  return last;
+}
+
+GradientRange Envelope::sphere_gradient(Point at, const Box& box, double factor) const {
+  const Range dx{box.low.x - at.x, box.high.x - at.x}, dy{box.low.y - at.y, box.high.y - at.y};
+  const double near_x = dx.low > 0 ? dx.low : dx.high < 0 ? -dx.high : 0, far_x = std::max(std::fabs(dx.low), std::fabs(dx.high));
+  const double near_y = dy.low > 0 ? dy.low : dy.high < 0 ? -dy.high : 0, far_y = std::max(std::fabs(dy.low), std::fabs(dy.high));
+  const double square = patches_.square_radius(), least = 1e-12 * square;
+  const double most = square - (near_x * near_x + near_y * near_y), fewest = square - (far_x * far_x + far_y * far_y);
+  const Range inverse{1 / std::sqrt(std::max(least, most)), 1 / std::sqrt(std::max(least, fewest))};
+  const Range f{-factor, -factor};
+  return {dx * inverse * f, dy * inverse * f};
+}
+
+GradientRange Envelope::gradient_range(Index i, const Box& box) const {
+  const Patch& f = patches_[i];
+  if (f.kind == FeatureKind::face) return {{f.gx, f.gx}, {f.gy, f.gy}};
+  if (f.kind == FeatureKind::vertex) return sphere_gradient(f.at, box, 1);
+  const Point mid = box.middle();
+  const double aside = (mid.y - f.at.y) * f.gx - (mid.x - f.at.x) * f.gy;
+  const double spread = std::fabs(f.gx) * box.half_y() + std::fabs(f.gy) * box.half_x();
+  const double square = patches_.square_radius(), least = 1e-12 * square;
+  const auto across = [&](double beta) { return -f.q * beta / std::sqrt(std::max(least, square - beta * beta)); };
+  const Range a{across(aside + spread), across(aside - spread)};
+  const Range along{f.m * f.gx, f.m * f.gx}, along_y{f.m * f.gy, f.m * f.gy};
+  return {along + a * Range{-f.gy, -f.gy}, along_y + a * Range{f.gx, f.gx}};
+}
+
+Range Envelope::derivative_range(Index i, const Box& box, Gradient d) const {
+  const Patch& f = patches_[i];
+  if (f.kind != FeatureKind::edge) {
+    const GradientRange g = gradient_range(i, box);
+    return g.x * Range{d.x, d.x} + g.y * Range{d.y, d.y};
+  }
+  const Point mid = box.middle();
+  const double aside = (mid.y - f.at.y) * f.gx - (mid.x - f.at.x) * f.gy;
+  const double spread = std::fabs(f.gx) * box.half_y() + std::fabs(f.gy) * box.half_x();
+  const double square = patches_.square_radius(), least = 1e-12 * square;
+  const auto across = [&](double beta) { return -f.q * beta / std::sqrt(std::max(least, square - beta * beta)); };
+  const double along = f.m * (f.gx * d.x + f.gy * d.y), aslant = d.y * f.gx - d.x * f.gy;
+  return Range{across(aside + spread), across(aside - spread)} * Range{aslant, aslant} + Range{along, along};
+}
+
+Gradient Envelope::bound_gradient(const Bound& b, Point p) const {
+  const double dx = p.x - b.at.x, dy = p.y - b.at.y;
+  if (b.type == Bound::Type::line) return {b.nx, b.ny};
+  if (b.type == Bound::Type::disc) return {2 * dx, 2 * dy};
+  const double square = patches_.square_radius();
+  const double up = std::sqrt(std::max(1e-12 * square, square - (dx * dx + dy * dy)));
+  return {b.nx - b.c * dx / up, b.ny - b.c * dy / up};
+}
+
+GradientRange Envelope::bound_gradient_range(const Bound& b, const Box& box) const {
+  if (b.type == Bound::Type::line) return {{b.nx, b.nx}, {b.ny, b.ny}};
+  if (b.type == Bound::Type::disc) {
+    return {{2 * (box.low.x - b.at.x), 2 * (box.high.x - b.at.x)}, {2 * (box.low.y - b.at.y), 2 * (box.high.y - b.at.y)}};
+  }
+  const GradientRange s = sphere_gradient(b.at, box, b.c);
+  return {s.x + Range{b.nx, b.nx}, s.y + Range{b.ny, b.ny}};
+}
+
+}  // namespace krepl::terrain

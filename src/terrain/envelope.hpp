@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "terrain/patches.hpp"
+
+namespace krepl::terrain {
+
+/// An axis-parallel rectangle; of no width or height where it is a stretch of a line.
+struct Box {
+  Point low, high;
+  Point middle() const { return {(low.x + high.x) / 2, (low.y + high.y) / 2}; }
+  double half_x() const { return (high.x - low.x) / 2; }
+  double half_y() const { return (high.y - low.y) / 2; }
+  double larger_side() const { return std::max(high.x - low.x, high.y - low.y); }
+};
+
+struct Range {
+  double low, high;
+  bool excludes_zero() const { return low > 0 || high < 0; }
+};
+inline Range operator-(Range a, Range b) { return {a.low - b.high, a.high - b.low}; }
+inline Range operator+(Range a, Range b) { return {a.low + b.low, a.high + b.high}; }
+Range operator*(Range a, Range b);
+struct GradientRange {
+  Range x, y;
+};
+
+/// How two labels meet along the boundary between them.
+enum class Meeting : std::uint8_t { seam, valley, rim };
+
+/// The upper envelope of a set of patches over a region: which candidates can appear at all, which one is highest at a
+/// place, and in what order they appear along a line.
+class Envelope {
+ public:
+  struct Crossing {
+    double t;
+    Index after;  ///< label beyond it
+    Meeting meeting;
+  };
+
+  /// `scale`: the S of the accuracy contract.
+  Envelope(const PatchSet& patches, double scale, SurfaceCounters& counters);
+
+  const PatchSet& patches() const { return patches_; }
+  /// Lengths and heights that differ by less are not told apart.
+  double tolerance() const { return tolerance_; }
+  double smallest_cell() const { return smallest_cell_; }
+
+  /// Highest candidate at p, the one with the lowest feature number among equals; none if no patch lies over p.
+  Index winner(Point p, std::span<const Index> candidates) const;
+
+  /// Appends to `out` the candidates that may appear in the box: those whose domain meets it and that are not hidden below the
+  /// bodies of the champions. Champions that are candidates are kept wherever their domain meets the box.
+  void filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
+              std::vector<Index>& out) const;
+
+  /// Labels along an axis-parallel line: appends crossings with t ascending to `out`. `start` and `end` are the labels at
+  /// the two ends, where t is x or y.
+  void section(bool vertical, double at, double from, double to, Index start, Index end, std::span<const Index> candidates,
+               std::vector<Crossing>& out);
+
+  Range bound_range(const Bound& bound, const Box& box) const;
+  GradientRange bound_gradient_range(const Bound& bound, const Box& box) const;
+  GradientRange gradient_range(Index patch, const Box& box) const;
+  /// Of the derivative of extended_height along a direction of the plane.
+  Range derivative_range(Index patch, const Box& box, Gradient direction) const;
+  /// Height at which a patch ends in a wall: of the points that a ball touches with a horizontal normal.
+  double rim_height(Index patch, Point p) const;
+  /// Gradient of a bound's function; steep but finite near the rim.
+  Gradient bound_gradient(const Bound& bound, Point p) const;
+  /// Of extended_height, but continued where the patch's surface has ended.
+  double clamped_height(Index patch, Point p) const;
+  Meeting meeting(Index a, Index b, Point p) const;
+
+ private:
+  struct Line;
+  void section(const Line& line, double t0, Index l0, double t1, Index l1, std::size_t first, int depth);
+  bool single_crossing(const Line& line, double t0, Index l0, double t1, Index l1) const;
+  double locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& meeting) const;
+  bool domain_covers(Index patch, const Box& box) const;
+  bool domain_meets(Index patch, const Box& box) const;
+  GradientRange sphere_gradient(Point at, const Box& box, double factor) const;
+
+  const PatchSet& patches_;
+  double tolerance_, smallest_cell_, noise_;
+  SurfaceCounters& counters_;
+  std::vector<Index> stack_;
+  std::vector<Crossing>* out_ = nullptr;
+};
+
+}  // namespace krepl::terrain

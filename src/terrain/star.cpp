@@ -1,0 +1,167 @@
+#include <algorithm>
+
+#include "terrain/cells.hpp"
+
+// Where three or more patches meet: Newton's method on two of the functions that vanish along the curves out of the vertex.
+namespace krepl::terrain {
+namespace {
+
+/// What vanishes along the curve of one turn: a side of a patch's domain, or a difference of heights.
+struct Condition {
+  const Bound* bound;  // null: heights of a and b
+  Index a, b;
+  bool at_rim;  // b's height where it ends in a wall
+};
+
+}  // namespace
+
+bool Cells::has_corner(Index patch, Point p) const {
+  for (const Point c : envelope_.patches().corners(patch)) {
+    if (std::hypot(c.x - p.x, c.y - p.y) <= envelope_.tolerance()) return true;
+  }
+  return false;
+}
+
+/// The one corner in the box of a patch two of whose sides are among the turns, or that two patches among the labels have.
+std::optional<Point> Cells::common_corner(const Box& box) const {
+  std::optional<Point> found;
+  const auto consider = [&](Index patch, auto&& wanted) {  // false: there are two
+    for (const Point c : envelope_.patches().corners(patch)) {
+      if (!(c.x >= box.low.x && c.x <= box.high.x && c.y >= box.low.y && c.y <= box.high.y) || !wanted(c)) continue;
+      if (found && std::hypot(found->x - c.x, found->y - c.y) > envelope_.tolerance()) return false;
+      if (!found) found = c;
+    }
+    return true;
+  };
+  for (std::size_t i = 0; i < turns_.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      Index patch = none;
+      if (sides_of_one_patch(turns_[i], turns_[j], patch) && !consider(patch, [](Point) { return true; })) return std::nullopt;
+      const Index a = turns_[i].after, b = turns_[j].after;
+      if (a == none || b == none || a == b) continue;
+      if (!consider(a, [&](Point c) { return has_corner(b, c); })) return std::nullopt;
+    }
+  }
+  return found;
+}
+
+std::optional<Point> Cells::star_point(const Box& box) const {
+  const PatchSet& patches = envelope_.patches();
+  const double square = patches.square_radius(), radius = patches.radius();
+  std::array<Condition, 16> condition;
+  const std::size_t n = turns_.size();
+  if (n > condition.size()) return std::nullopt;
+
+  const auto rim_of = [&](const Turn& t) {  // the side at which the upper patch ends, near the turn
+    const Bound* nearest = nullptr;
+    double least = 1e300;
+    for (const Index l : {t.before, t.after}) {
+      if (l == none) continue;
+      for (const Bound& b : patches.bounds(l)) {
+        if (b.partner != none && b.partner != (l == t.before ? t.after : t.before)) continue;
+        const Gradient g = envelope_.bound_gradient(b, t.at);
+        const double distance = std::fabs(b.value(t.at, square)) / std::hypot(g.x, g.y);
+        if (distance < least) least = distance, nearest = &b;
+      }
+    }
+    return nearest;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const Turn& t = turns_[i];
+    condition[i] = {nullptr, t.before, t.after, false};
+    if (t.meeting == Meeting::seam) condition[i].bound = patches.seam(t.before, t.after);
+    if (t.meeting == Meeting::rim && (condition[i].bound = rim_of(t)) == nullptr) return std::nullopt;
+  }
+  // Near the end of a patch its height falls like a square root; the height of the wall itself is smooth.
+  for (std::size_t i = 0; i < n; ++i) {
+    if (condition[i].bound != nullptr) continue;
+    for (const Turn& t : turns_) {
+      if (t.meeting != Meeting::rim) continue;
+      for (const Index l : {condition[i].a, condition[i].b}) {
+        const Index other = t.before == l ? t.after : t.before;
+        if (l == none || (t.before != l && t.after != l)) continue;
+        if (other != none && envelope_.clamped_height(l, t.at) < envelope_.clamped_height(other, t.at)) continue;
+        condition[i] = {nullptr, condition[i].a == l ? condition[i].b : condition[i].a, l, true};
+      }
+    }
+  }
+  const auto gradient = [&](const Condition& c, Point p) {
+    if (c.bound != nullptr) return envelope_.bound_gradient(*c.bound, p);
+    const Gradient g = patches.gradient(c.a, p), h = patches.gradient(c.b, p);
+    if (!c.at_rim) return Gradient{g.x - h.x, g.y - h.y};
+    const Patch& f = patches[c.b];
+    return f.kind == Terrain::FeatureKind::edge ? Gradient{g.x - f.m * f.gx, g.y - f.m * f.gy} : g;
+  };
+  const auto value = [&](const Condition& c, Point p) {
+    if (c.bound != nullptr) return c.bound->value(p, square);
+    return envelope_.clamped_height(c.a, p) - (c.at_rim ? envelope_.rim_height(c.b, p) : envelope_.clamped_height(c.b, p));
+  };
+
+  // A corner that two labels share, or two sides of one, is known beforehand; near the rim the curves there are tangent.
+  if (const std::optional<Point> corner = common_corner(box)) {
+    for (std::size_t k = 0; k < n; ++k) {
+      if (condition[k].bound != nullptr || (has_corner(condition[k].a, *corner) && has_corner(condition[k].b, *corner))) continue;
+      const Gradient g = gradient(condition[k], *corner);
+      const double scale = 1 + std::hypot(g.x, g.y);
+      if (!(std::fabs(value(condition[k], *corner)) <= envelope_.tolerance() * scale)) return std::nullopt;
+    }
+    return corner;
+  }
+
+  // The two conditions whose curves cross at the largest angle; sides of domains before heights.
+  Point p = box.middle();
+  std::size_t first = 0, second = 1;
+  double best = -1;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Gradient g = gradient(condition[i], p);
+    for (std::size_t j = i + 1; j < n; ++j) {
+      const Gradient h = gradient(condition[j], p);
+      const double sizes = std::hypot(g.x, g.y) * std::hypot(h.x, h.y);
+      double sine = sizes > 0 ? std::fabs(g.x * h.y - g.y * h.x) / sizes : 0;
+      const int sides = (condition[i].bound != nullptr) + (condition[j].bound != nullptr);
+      if (sine > 1e-6) sine += sides;
+      if (sine > best) best = sine, first = i, second = j;
+    }
+  }
+  const Condition &c = condition[first], &d = condition[second];
+  const double reach = 4 * box.larger_side();
+  bool converged = false;
+  for (int i = 0; i < 30 && !converged; ++i) {
+    const double f = value(c, p), e = value(d, p);
+    const Gradient g = gradient(c, p), h = gradient(d, p);
+    const double det = g.x * h.y - g.y * h.x;
+    if (det == 0 || !std::isfinite(det)) return std::nullopt;
+    const double dx = -(f * h.y - e * g.y) / det, dy = -(e * g.x - f * h.x) / det;
+    p = {p.x + dx, p.y + dy};
+    if (!(std::fabs(p.x - box.middle().x) <= reach && std::fabs(p.y - box.middle().y) <= reach)) return std::nullopt;
+    converged = std::fabs(dx) + std::fabs(dy) <= 0.25 * envelope_.tolerance();
+  }
+  if (!converged) return std::nullopt;
+  if (!(p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y)) return std::nullopt;
+
+  const double tolerance = envelope_.tolerance();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double residual = std::fabs(value(condition[i], p));
+    double scale = 1;
+    if (condition[i].bound != nullptr && condition[i].bound->type == Bound::Type::disc) scale = 2 * radius;
+    if (condition[i].bound != nullptr && condition[i].bound->type == Bound::Type::cone) scale += std::fabs(condition[i].bound->c);
+    if (condition[i].bound == nullptr) {
+      const Gradient g = gradient(condition[i], p);
+      scale += std::hypot(g.x, g.y);
+    }
+    if (!(residual <= tolerance * scale)) return std::nullopt;
+  }
+  // One vertex only: two sides of domains are enough, for heights the map must be one to one.
+  if (c.bound == nullptr || d.bound == nullptr) {
+    const auto range = [&](const Condition& k) {
+      if (k.bound != nullptr) return envelope_.bound_gradient_range(*k.bound, box);
+      const GradientRange a = envelope_.gradient_range(k.a, box), b = envelope_.gradient_range(k.b, box);
+      return GradientRange{a.x - b.x, a.y - b.y};
+    };
+    const GradientRange a = range(c), b = range(d);
+    if (n <= 3 && !(a.x * b.y - a.y * b.x).excludes_zero()) return std::nullopt;
+  }
+  return p;
+}
+
+}  // namespace krepl::terrain

@@ -1,0 +1,234 @@
+#include "terrain/tile.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace krepl::terrain {
+namespace {
+
+/// Triangles in a tile, about: enough to make the margin of width R around it cheap, few enough for the cache.
+constexpr double triangles_a_tile = 8192;
+
+double distance(Point3 p, Point3 q) { return std::hypot(p.x - q.x, p.y - q.y); }
+
+/// Follows the links of a subdivided tile from cell to cell and writes chains.
+class ChainWriter {
+ public:
+  ChainWriter(Cells& cells, Tile& tile) : cells_(cells), tile_(tile) {
+    line_of_.resize(cells.crossings().size());
+    for (Index l = 0; l < cells.lines().size(); ++l) {
+      const CellLine& line = cells.lines()[l];
+      std::fill_n(line_of_.begin() + line.first_crossing, line.crossing_count, l);
+    }
+    passed_.assign(line_of_.size(), false);
+    region_number_.assign(cells.piece_count(), none);
+  }
+
+  void write() {
+    for (const auto& v : cells_.vertices()) {
+      tile_.vertices.push_back(v.at);
+      tile_.arm_begin.push_back(v.first_arm);
+    }
+    tile_.arm_begin.push_back(Index(cells_.arms().size()));
+    arm_taken_.assign(cells_.arms().size(), false);
+    write_sides();
+    for (Index a = 0; a < cells_.arms().size(); ++a) {
+      if (arm_taken_[a]) continue;
+      const Link arm = cells_.arms()[a];
+      follow({ChainEnd::Kind::arm, 0, a}, arm.index(), arm.side());
+    }
+    for (std::uint8_t s = 0; s < 4; ++s) {
+      const CellLine& line = cells_.lines()[s];
+      for (Index k = 0; k < line.crossing_count; ++k) {
+        if (!passed_[line.first_crossing + k]) follow({ChainEnd::Kind::side, s, k}, line.first_crossing + k, outside(s));
+      }
+    }
+    for (Index c = 0; c < line_of_.size(); ++c) {
+      if (!passed_[c]) follow({ChainEnd::Kind::closed, 0, c}, c, 0);
+    }
+  }
+
+ private:
+  /// The side of the tile's own side lines that lies outside.
+  static int outside(int tile_side) { return tile_side == 1 || tile_side == 2 ? 1 : 0; }
+
+  Index region(Index piece, Index label) {
+    Index& number = region_number_[cells_.region(piece)];
+    if (number == none) {
+      number = Index(tile_.region_feature.size());
+      tile_.region_feature.push_back(feature(label));
+    }
+    return number;
+  }
+  Index feature(Index label) const { return label == none ? none : cells_.envelope().patches()[label].feature; }
+  Index label_before(Index c) const {
+    const CellLine& line = cells_.lines()[line_of_[c]];
+    return c == line.first_crossing ? line.start_label : cells_.crossings()[c - 1].after;
+  }
+
+  void write_sides() {
+    for (Index s = 0; s < 4; ++s) {
+      const CellLine& line = cells_.lines()[s];
+      for (Index k = 0; k <= line.crossing_count; ++k) {
+        const Index label = k == 0 ? line.start_label : cells_.crossings()[line.first_crossing + k - 1].after;
+        tile_.side_region[s].push_back(region(cells_.piece(s, k), label));
+        if (k > 0) tile_.side_crossing[s].push_back(cells_.crossings()[line.first_crossing + k - 1].t);
+      }
+    }
+  }
+
+  /// From crossing c, coming from the cell on the given side of its line.
+  void follow(ChainEnd start, Index c, int from) {
+    Chain chain{};
+    chain.end[0] = start;
+    describe(chain, c, from);
+    points_.clear();
+    const Index first = c;
+    while (true) {
+      passed_[c] = true;
+      const Index line = line_of_[c];
+      add_point(c, chain);
+      if (line < 4 && from != outside(int(line))) {  // leaves the tile
+        chain.end[1] = {ChainEnd::Kind::side, std::uint8_t(line), c - cells_.lines()[line].first_crossing};
+        break;
+      }
+      const Link link = cells_.crossings()[c].link[1 - from];
+      if (link.is_vertex()) {
+        chain.end[1] = {ChainEnd::Kind::arm, 0, arm_at(link.index(), c, 1 - from)};
+        break;
+      }
+      c = link.index();
+      from = link.side();
+      if (c == first) {
+        chain.end[1] = chain.end[0];
+        break;
+      }
+    }
+    for (const ChainEnd& end : chain.end) {
+      if (end.kind == ChainEnd::Kind::arm) arm_taken_[end.index] = true;
+    }
+    keep_guides(chain);
+    tile_.chains.push_back(chain);
+  }
+
+  /// Labels and regions left and right of the way over crossing c.
+  void describe(Chain& chain, Index c, int from) {
+    const Index line = line_of_[c], k = c - cells_.lines()[line].first_crossing;
+    const auto& crossing = cells_.crossings()[c];
+    const Index label[2] = {label_before(c), crossing.after};
+    const Index region_of[2] = {region(cells_.piece(line, k), label[0]), region(cells_.piece(line, k + 1), label[1])};
+    const int left = cells_.lines()[line].vertical == (from == 0) ? 1 : 0;
+    chain.region[0] = region_of[left];
+    chain.region[1] = region_of[1 - left];
+    chain.feature[0] = feature(label[left]);
+    chain.feature[1] = feature(label[1 - left]);
+    chain.meeting = crossing.meeting;
+    upper_ = label[0] == none ? label[1] : label[0];
+    other_ = label[0] == none ? label[0] : label[1];
+    if (crossing.meeting != Meeting::rim) return;
+    const Point p = cells_.place(line, crossing);
+    if (other_ != none && cells_.envelope().clamped_height(other_, p) > cells_.envelope().clamped_height(upper_, p)) {
+      std::swap(upper_, other_);
+    }
+    for (Index& f : chain.feature) {
+      if (f != feature(upper_)) f = none;
+    }
+  }
+
+  void add_point(Index c, const Chain& chain) {
+    const Point p = cells_.place(line_of_[c], cells_.crossings()[c]);
+    const Envelope& e = cells_.envelope();
+    const double z = chain.meeting == Meeting::rim ? e.rim_height(upper_, p) : e.clamped_height(upper_, p);
+    points_.push_back({p.x, p.y, z});
+  }
+
+  Index arm_at(Index vertex, Index crossing, int side) const {
+    const auto& v = cells_.vertices()[vertex];
+    for (Index a = v.first_arm; a < v.first_arm + v.arm_count; ++a) {
+      if (cells_.arms()[a].word == Link::crossing(crossing, side).word) return a;
+    }
+    return none;
+  }
+
+  /// A few points are enough to tell which part of the curve is meant: the middle one of an open chain that hardly bends.
+  void keep_guides(Chain& chain) {
+    chain.first_guide = Index(tile_.guides.size());
+    const std::size_t n = points_.size();
+    const bool closed = chain.end[0].kind == ChainEnd::Kind::closed;
+    double whole = 0, straight = n > 1 ? distance(points_.front(), points_.back()) : 0;
+    for (std::size_t i = 1; i < n; ++i) whole += distance(points_[i - 1], points_[i]);
+    const std::size_t wanted = closed ? 16 : whole > 1.02 * straight ? 5 : 1;
+    if (n <= wanted) {
+      tile_.guides.insert(tile_.guides.end(), points_.begin(), points_.end());
+    } else {
+      double run = 0;
+      std::size_t next = 0;
+      for (std::size_t i = 0; i < n && next < wanted; ++i) {
+        if (i > 0) run += distance(points_[i - 1], points_[i]);
+        if (run * double(wanted + 1) < whole * double(next + 1) && n - i > wanted - next) continue;
+        tile_.guides.push_back(points_[i]);
+        ++next;
+      }
+    }
+    chain.guide_count = Index(tile_.guides.size()) - chain.first_guide;
+  }
+
+  Cells& cells_;
+  Tile& tile_;
+  std::vector<Index> line_of_, region_number_;
+  std::vector<bool> passed_, arm_taken_;
+  std::vector<Point3> points_;
+  Index upper_ = none, other_ = none;
+};
+
+}  // namespace
+
+Tiling tiling_for(const Terrain& terrain, double radius) {
+  // Odd parts of the margin, so that tile and cell sides run along no line of samples.
+  const Point3 low = terrain.lowest(), high = terrain.highest();
+  Tiling t;
+  t.low = {low.x - 1.0371 * radius, low.y - 1.0439 * radius};
+  t.high = {high.x + 1.0391 * radius, high.y + 1.0313 * radius};
+  const double width = t.high.x - t.low.x, height = t.high.y - t.low.y;
+  const double area = std::max(high.x - low.x, radius) * std::max(high.y - low.y, radius);
+  const double size = std::max(std::sqrt(area * triangles_a_tile / double(terrain.triangle_count())), 2 * radius);
+  const auto number = [&](double extent) { return Index(std::clamp(std::floor(extent / size + 0.5), 1.0, 4096.0)); };
+  t.columns = number(width);
+  t.rows = number(height);
+  return t;
+}
+
+Tile TileWorker::compute(const Terrain& terrain, const Tiling& tiling, Index column, Index row, double radius,
+                         double scale, const Context& context) {
+  Tile tile;
+  const Box box = tiling.box(column, row);
+  const double margin = radius * (1 + 1e-9);
+  window_.fill(terrain, {box.low.x - margin, box.low.y - margin}, {box.high.x + margin, box.high.y + margin});
+  patches_.build(window_, radius);
+  tile.counters.patches = patches_.size();
+  Cells cells(patches_, scale, tile.counters, context);
+  std::vector<Index> all(patches_.size());
+  std::iota(all.begin(), all.end(), Index{0});
+
+  const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+  Index label[4];
+  for (int i = 0; i < 4; ++i) label[i] = cells.envelope().winner(corner[i], all);
+  std::vector<Envelope::Crossing> crossings;
+  const auto add_side = [&](bool vertical, double at, double from, double to, Index start, Index end) {
+    crossings.clear();
+    cells.envelope().section(vertical, at, from, to, start, end, all, crossings);
+    cells.add_line(vertical, at, start, crossings);
+  };
+  add_side(false, box.low.y, box.low.x, box.high.x, label[0], label[1]);
+  add_side(true, box.high.x, box.low.y, box.high.y, label[1], label[2]);
+  add_side(false, box.high.y, box.low.x, box.high.x, label[3], label[2]);
+  add_side(true, box.low.x, box.low.y, box.high.y, label[0], label[3]);
+  if (!cells.run(box, all)) {
+    tile.failed_at = cells.failed_at();
+    return tile;
+  }
+  ChainWriter(cells, tile).write();
+  return tile;
+}
+
+}  // namespace krepl::terrain
