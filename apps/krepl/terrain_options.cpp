@@ -32,7 +32,8 @@ Result<Terrain::Split> parse_split(const std::string& text) {
 }  // namespace
 
 void add_terrain_options(CLI::App& verb, TerrainOptions& options) {
-  verb.add_option("IN", options.request.path, "Terrain or part: any GDAL raster, .stl .obj .ply .off, .gz of them, or -")
+  verb.add_option("IN", options.request.path,
+                  "Terrain or part: any GDAL raster, .stl .obj .ply .off, .gz of them, or -")
       ->required();
   verb.add_option("--crs", options.request.crs, "Coordinate system of the data, in place of what the file says")
       ->type_name("EPSG:n");
@@ -42,7 +43,8 @@ void add_terrain_options(CLI::App& verb, TerrainOptions& options) {
   verb.add_option("--z-scale", options.z_scale, "Multiply heights by this number (default: 1)")->type_name("FACTOR");
   verb.add_option("--split", options.split, "Raster: diagonal that splits a cell: rising (default), falling, shorter")
       ->type_name("NAME");
-  verb.add_option("--band", options.request.band, "Raster: band to read (default: 1)")->type_name("N")
+  verb.add_option("--band", options.request.band, "Raster: band to read (default: 1)")
+      ->type_name("N")
       ->check(CLI::PositiveNumber);
 }
 
@@ -67,13 +69,15 @@ void tell_terrain(const input::TerrainFile& file, const std::string& name, doubl
   const Terrain::Report& report = terrain.report();
   if (terrain.is_grid()) {
     session.detail(fmt::format("read       {:.3f} s: {} x {} samples ({} without data), {} triangles", seconds,
-                               terrain.grid().columns, terrain.grid().rows, report.missing_samples, terrain.triangle_count()));
+                               terrain.grid().columns, terrain.grid().rows, report.missing_samples,
+                               terrain.triangle_count()));
     return;
   }
   session.detail(fmt::format("read       {:.3f} s: {} triangles, {} kept ({} vertical)", seconds, report.triangles,
                              terrain.triangle_count(), report.vertical_triangles));
-  session.detail(fmt::format("cleaning   {} coinciding vertices welded, {} triangles without area and {} repeated ones dropped",
-                             report.welded_vertices, report.zero_area_triangles, report.repeated_triangles));
+  session.detail(
+      fmt::format("cleaning   {} coinciding vertices welded, {} triangles without area and {} repeated ones dropped",
+                  report.welded_vertices, report.zero_area_triangles, report.repeated_triangles));
   session.detail(fmt::format("edges      {} at the border, {} of three triangles or more", report.border_edges,
                              report.non_manifold_edges));
 }

@@ -21,7 +21,8 @@ struct TerrainOptions {
   std::string name() const { return request.path == "-" ? "standard input" : request.path; }
 };
 
-/// Declares IN and the options --crs, --to-crs, --z-scale, --split and --band. `options` must live until the verb has run.
+/// Declares IN and the options --crs, --to-crs, --z-scale, --split and --band. `options` must live until the verb has
+/// run.
 void add_terrain_options(CLI::App& verb, TerrainOptions& options);
 
 /// What the options mean; an Error of code usage names what is wrong. To be called before anything is read.

@@ -9,9 +9,12 @@
 #include "input/geometry_source.hpp"
 #include "input/profile_reader.hpp"
 #include "input/result_file.hpp"
+#include "input/subdivision_file.hpp"
+#include "terrain_options.hpp"
 #include "verbs.hpp"
 #include "verify/input_parts.hpp"
 #include "verify/profile_verifier.hpp"
+#include "verify/surface_verifier.hpp"
 #include "verify/zone_verifier.hpp"
 
 namespace krepl::app {
@@ -22,6 +25,7 @@ struct VerifyOptions {
   std::string result;
   verify::InputRequest input;
   std::string radius, max_error;
+  TerrainOptions terrain;
   std::uint64_t samples = 0;
 };
 
@@ -73,6 +77,14 @@ void print(Session& session, const verify::ProfileReport& report) {
       fmt::format("profile of radius {}: {} segments in, {} pieces out, {} of them arcs, {} explicit vertices",
                   report.radius, report.segments, report.pieces, report.arcs, report.explicit_vertices));
   session.summary(fmt::format("S {:.6g}, tolerance {:.2g}", report.scale, report.tolerance));
+  print(session, report.checks);
+}
+
+void print(Session& session, const verify::SurfaceReport& report) {
+  session.summary(fmt::format("surface of radius {}: {} triangles in, {} faces, {} edges, {} vertices, {} components, {} holes out",
+                              report.radius, report.triangles, report.faces, report.edges, report.vertices,
+                              report.components, report.holes));
+  session.summary(fmt::format("area of the projection {:.12g}, S {:.6g}, tolerance {:.2g}", report.area, report.scale, report.tolerance));
   print(session, report.checks);
 }
 
@@ -153,9 +165,43 @@ int verify_profile(const VerifyOptions& options, Session& session) {
   return 0;
 }
 
+int verify_surface(const VerifyOptions& options, Session& session) {
+  verify::SurfaceCheckOptions check;
+  check.samples = options.samples;
+  if (!options.radius.empty()) {
+    auto radius = parse_radius(options.radius);
+    if (!radius) return session.fail("", radius.error());
+    check.radius = *radius;
+  }
+  TerrainOptions terrain_options = options.terrain;
+  terrain_options.request.path = options.input.path;
+  terrain_options.request.crs = options.input.crs, terrain_options.request.to_crs = options.input.to_crs;
+  auto request = terrain_request(terrain_options);
+  if (!request) return session.fail("", request.error());
+  auto terrain = input::read_terrain(*request, session.context("reading"));
+  session.finish_progress();
+  if (!terrain) return session.fail(options.input.path, terrain.error());
+  auto file = input::read_subdivision(options.result, session.context("reading"));
+  session.finish_progress();
+  if (!file) return session.fail(options.result, file.error());
+
+  if (options.radius.empty()) check.radius = file->radius;
+  const double radius = check.radius;
+  auto report = verify::check_surface(std::move(*file), *terrain->terrain, check, session.context("checking"));
+  session.finish_progress();
+  if (!report) return session.fail(options.result, report.error());
+  print(session, *report);
+  if (!report->ok()) return session.fail(options.result, violation("surface", radius, report->checks));
+  session.summary("sound: every check passed");
+  return 0;
+}
+
 int run_verify(const VerifyOptions& options, Session& session) {
-  return input::format_extension(options.result) == "csv" ? verify_profile(options, session)
-                                                          : verify_zones(options, session);
+  const std::string extension = input::format_extension(options.result);
+  if (extension == "json" && input::looks_like_subdivision(options.result)) return verify_surface(options, session);
+  if (!options.terrain.split.empty() || !options.terrain.z_scale.empty() || options.terrain.request.band != 0)
+    return session.fail("", {ErrorCode::usage, "--split, --z-scale and --band belong to subdivisions (.json)", "", ""});
+  return extension == "csv" ? verify_profile(options, session) : verify_zones(options, session);
 }
 
 }  // namespace
@@ -163,7 +209,7 @@ int run_verify(const VerifyOptions& options, Session& session) {
 void add_verify_verb(CLI::App& program, Session& session) {
   auto options = std::make_shared<VerifyOptions>();
   CLI::App* verb = program.add_subcommand("verify", "Re-check a result against its input by independent brute force");
-  verb->add_option("RESULT", options->result, "Zone (vector file) or profile (.csv) to check")->required();
+  verb->add_option("RESULT", options->result, "Zone (vector file), profile (.csv) or subdivision (.json) to check")->required();
   verb->add_option("--against", options->input.path, "The input that the result was made from")
       ->required()
       ->type_name("IN");
@@ -176,10 +222,16 @@ void add_verify_verb(CLI::App& program, Session& session) {
   verb->add_option("--to-crs", options->input.to_crs, "Projection that the result was made with")
       ->type_name("CRS|auto");
   verb->add_option("--samples", options->samples,
-                   "Number of points whose membership is tested (default: some seconds' worth)")
+                   "Number of points whose membership is tested, or at which the ball is let down (default: some "
+                   "seconds' worth)")
       ->type_name("N");
   verb->add_option("--max-error", options->max_error, "Deviation allowed to a format without arcs (default: none)")
       ->type_name("E");
+  verb->add_option("--z-scale", options->terrain.z_scale, "Terrains: as the result was made")->type_name("FACTOR");
+  verb->add_option("--split", options->terrain.split, "Rasters: as the result was made")->type_name("NAME");
+  verb->add_option("--band", options->terrain.request.band, "Rasters: as the result was made")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
   session.add_common_options(*verb);
   session.on_run(*verb, [options, &session] { return run_verify(*options, session); });
 }

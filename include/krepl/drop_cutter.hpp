@@ -78,6 +78,8 @@ class DropCutter {
 
  private:
   class Hierarchy;
+  template <class Tree>
+  class TileWork;
   DropCutter(std::shared_ptr<const Terrain> terrain, std::shared_ptr<const Hierarchy> hierarchy, double radius)
       : terrain_(std::move(terrain)), hierarchy_(std::move(hierarchy)), radius_(radius) {}
 

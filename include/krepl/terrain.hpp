@@ -57,11 +57,17 @@ class Terrain {
   };
 
   /// `heights` has grid.columns * grid.rows values, row by row from least y, x ascending; NaN means no data.
-  /// Errors: fewer than 2 x 2 samples, no triangle left, infinite values, cell size not positive, more than 2^29 samples.
+  /// Errors: fewer than 2 x 2 samples; more than 2^29; a number of heights that is not columns * rows (usage); an infinite
+  /// height (named by column and row); a place or cell size that is not finite, not positive or too fine for double
+  /// precision; no triangle left; cancelled. Linear time; keeps 8 bytes a sample.
   static Result<Terrain> from_grid(const Grid& grid, std::vector<double> heights, const Context& context = {});
 
   /// Triangles by three indices into `vertices`, in any orientation. Coinciding vertices are welded.
-  /// Errors: NaN or infinite coordinates or an index out of range (the triangle is named), no triangle left, more than 2^29.
+  /// Triangles without area (exactly) and repeated ones are dropped, vertices that no triangle is left to use likewise.
+  /// Features are numbered along a Hilbert curve of the plane, whatever order the triangles come in.
+  ///
+  /// Errors: NaN or infinite coordinates or an index out of range (the triangle is named, counted from 0); no triangle left;
+  /// more than 2^29; cancelled. O(n log n), about half a microsecond a triangle; keeps some 70 bytes a triangle.
   static Result<Terrain> from_triangles(std::vector<Point3> vertices, std::vector<std::array<Index, 3>> triangles,
                                         const Context& context = {});
 

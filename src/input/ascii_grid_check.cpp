@@ -17,8 +17,10 @@ class WordCounter {
  public:
   void add(const char* text, std::size_t length) {
     for (std::size_t i = 0; i < length; ++i) {
-      if (in_header_) read_header(text[i]);
-      else read_body(text[i]);
+      if (in_header_)
+        read_header(text[i]);
+      else
+        read_body(text[i]);
     }
   }
   std::size_t count() const { return count_; }
@@ -27,8 +29,10 @@ class WordCounter {
   static bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
   void read_header(char c) {
-    if (!named_ && !blank(c)) line_ += c;
-    else if (!named_ && !line_.empty()) end_word(c);
+    if (!named_ && !blank(c))
+      line_ += c;
+    else if (!named_ && !line_.empty())
+      end_word(c);
     if (c == '\n') named_ = false;
   }
 
@@ -69,7 +73,8 @@ Status check_ascii_grid(const std::string& vsi_path, std::size_t samples, const 
     words.add(block.data(), got);
   }
   if (words.count() >= samples) return std::monostate{};
-  return Error{ErrorCode::input, "ends after " + std::to_string(words.count()) + " of " + std::to_string(samples) + " samples", "",
+  return Error{ErrorCode::input,
+               "ends after " + std::to_string(words.count()) + " of " + std::to_string(samples) + " samples", "",
                "the file seems to be cut off: get it again"};
 }
 

@@ -6,10 +6,14 @@ namespace {
 
 Result<PolygonMesh> read_polygons(std::string_view text, MeshFormat format, const Context& context) {
   switch (format) {
-    case MeshFormat::off: return read_off(text, context);
-    case MeshFormat::obj: return read_obj(text, context);
-    case MeshFormat::ply: return read_ply(text, context);
-    case MeshFormat::stl: break;
+    case MeshFormat::off:
+      return read_off(text, context);
+    case MeshFormat::obj:
+      return read_obj(text, context);
+    case MeshFormat::ply:
+      return read_ply(text, context);
+    case MeshFormat::stl:
+      break;
   }
   return read_stl(text, context);
 }

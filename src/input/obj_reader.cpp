@@ -1,5 +1,5 @@
-// Wavefront OBJ: vertices and faces. Groups, materials, normals, lines and points have no part in a terrain; curved surfaces
-// cannot be read and are noted.
+// Wavefront OBJ: vertices and faces. Groups, materials, normals, lines and points have no part in a terrain; curved
+// surfaces cannot be read and are noted.
 #include "input/mesh_reader.hpp"
 #include "input/text_scanner.hpp"
 
@@ -39,9 +39,12 @@ Result<PolygonMesh> read_obj(std::string_view text, const Context& context) {
   while (scanner.next()) {
     const std::string_view keyword = scanner.word();
     Status read = std::monostate{};
-    if (keyword == "v") read = read_vertex(scanner, mesh);
-    else if (keyword == "f" || keyword == "fo") read = read_face(scanner, mesh);
-    else if (keyword == "surf") ++surfaces;
+    if (keyword == "v")
+      read = read_vertex(scanner, mesh);
+    else if (keyword == "f" || keyword == "fo")
+      read = read_face(scanner, mesh);
+    else if (keyword == "surf")
+      ++surfaces;
     if (!read) return read.error();
   }
   if (scanner.cancelled()) return scanner.end_error("");

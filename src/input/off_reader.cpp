@@ -1,4 +1,5 @@
-// OFF as in Geomview's manual: text, with any of the prefixes for texture, colour and normals, whose numbers are skipped.
+// OFF as in Geomview's manual: text, with any of the prefixes for texture, colour and normals, whose numbers are
+// skipped.
 #include <algorithm>
 
 #include "input/mesh_reader.hpp"
@@ -20,7 +21,8 @@ Result<Counts> read_header(TextScanner& scanner) {
     std::string_view prefix = word.substr(0, word.size() - 3);
     for (const std::string_view known : {"ST", "C", "N"})
       if (prefix.starts_with(known)) prefix.remove_prefix(known.size());
-    if (!prefix.empty()) return scanner.error(quoted(word) + " is not read, its points are not in space", "write it as OFF");
+    if (!prefix.empty())
+      return scanner.error(quoted(word) + " is not read, its points are not in space", "write it as OFF");
     word = scanner.flowing_word();
   } else if (word.front() < '0' || word.front() > '9') {
     return scanner.error(quoted(word) + " instead of OFF", "give a file in the format of its extension");

@@ -1,5 +1,5 @@
-// PLY, text and binary of either byte order: coordinates and corners of any number type; all other properties and elements are
-// skipped.
+// PLY, text and binary of either byte order: coordinates and corners of any number type; all other properties and
+// elements are skipped.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -40,10 +40,10 @@ struct Header {
 
 Result<Type> type_named(const TextScanner& scanner, std::string_view name) {
   constexpr std::pair<std::string_view, Type> names[] = {
-      {"char", Type::int8},    {"uchar", Type::uint8},   {"short", Type::int16},   {"ushort", Type::uint16},
-      {"int", Type::int32},    {"uint", Type::uint32},   {"float", Type::float32}, {"double", Type::float64},
-      {"int8", Type::int8},    {"uint8", Type::uint8},   {"int16", Type::int16},   {"uint16", Type::uint16},
-      {"int32", Type::int32},  {"uint32", Type::uint32}, {"float32", Type::float32}, {"float64", Type::float64}};
+      {"char", Type::int8},   {"uchar", Type::uint8},   {"short", Type::int16},     {"ushort", Type::uint16},
+      {"int", Type::int32},   {"uint", Type::uint32},   {"float", Type::float32},   {"double", Type::float64},
+      {"int8", Type::int8},   {"uint8", Type::uint8},   {"int16", Type::int16},     {"uint16", Type::uint16},
+      {"int32", Type::int32}, {"uint32", Type::uint32}, {"float32", Type::float32}, {"float64", Type::float64}};
   for (const auto& [known, type] : names)
     if (name == known) return type;
   return scanner.error("type " + quoted(name) + " is unknown");
@@ -77,7 +77,8 @@ Result<Element> read_element(TextScanner& scanner) {
 }
 
 Result<Header> read_header(TextScanner& scanner) {
-  if (!scanner.next() || scanner.word() != "ply") return scanner.error("does not begin with ply", "give a file in the format of its extension");
+  if (!scanner.next() || scanner.word() != "ply")
+    return scanner.error("does not begin with ply", "give a file in the format of its extension");
   Header header;
   while (scanner.next()) {
     const std::string_view keyword = scanner.word();
@@ -143,7 +144,8 @@ class BinaryValues : public Values {
     if (reversed_ == (std::endian::native == std::endian::little)) std::reverse(raw, raw + size);
     bytes_.remove_prefix(size);
     const double value = decoded(raw, type);
-    if (!std::isfinite(value)) return Error{ErrorCode::input, std::string(what) + " is not finite", "", "repair the mesh"};
+    if (!std::isfinite(value))
+      return Error{ErrorCode::input, std::string(what) + " is not finite", "", "repair the mesh"};
     return value;
   }
   Status skip(Type type) override {
@@ -163,18 +165,28 @@ class BinaryValues : public Values {
   }
   static double decoded(const char* raw, Type type) {
     switch (type) {
-      case Type::int8: return as<std::int8_t>(raw);
-      case Type::uint8: return as<std::uint8_t>(raw);
-      case Type::int16: return as<std::int16_t>(raw);
-      case Type::uint16: return as<std::uint16_t>(raw);
-      case Type::int32: return as<std::int32_t>(raw);
-      case Type::uint32: return as<std::uint32_t>(raw);
-      case Type::float32: return as<float>(raw);
-      case Type::float64: break;
+      case Type::int8:
+        return as<std::int8_t>(raw);
+      case Type::uint8:
+        return as<std::uint8_t>(raw);
+      case Type::int16:
+        return as<std::int16_t>(raw);
+      case Type::uint16:
+        return as<std::uint16_t>(raw);
+      case Type::int32:
+        return as<std::int32_t>(raw);
+      case Type::uint32:
+        return as<std::uint32_t>(raw);
+      case Type::float32:
+        return as<float>(raw);
+      case Type::float64:
+        break;
     }
     return as<double>(raw);
   }
-  static Error end_error() { return {ErrorCode::input, "ends too early", "", "the file seems to be cut off: get it again"}; }
+  static Error end_error() {
+    return {ErrorCode::input, "ends too early", "", "the file seems to be cut off: get it again"};
+  }
 
   std::string_view bytes_;
   bool reversed_;
@@ -182,18 +194,21 @@ class BinaryValues : public Values {
 
 class BodyReader {
  public:
-  BodyReader(Values& values, PolygonMesh& mesh, const Context& context) : values_(values), mesh_(mesh), context_(context) {
+  BodyReader(Values& values, PolygonMesh& mesh, const Context& context)
+      : values_(values), mesh_(mesh), context_(context) {
     mesh_.place_name = values.place_name();
   }
 
   Status read(const Element& element) {
     if (element.properties.empty()) return std::monostate{};
     for (std::int64_t i = 0; i < element.count; ++i) {
-      if (i % 65536 == 0 && context_.cancelled()) return Error{ErrorCode::cancelled, "interrupted while reading", "", ""};
+      if (i % 65536 == 0 && context_.cancelled())
+        return Error{ErrorCode::cancelled, "interrupted while reading", "", ""};
       const Status status = element.name == "vertex" ? read_vertex(element) : read_other(element, i);
       if (status) continue;
       Error error = status.error();
-      if (error.where.empty()) error.where = element.name + " " + std::to_string(i) + " of " + std::to_string(element.count);
+      if (error.where.empty())
+        error.where = element.name + " " + std::to_string(i) + " of " + std::to_string(element.count);
       return error;
     }
     return std::monostate{};
@@ -203,7 +218,10 @@ class BodyReader {
   Status read_vertex(const Element& element) {
     Point3 p;
     for (const Property& property : element.properties) {
-      double* coordinate = property.name == "x" ? &p.x : property.name == "y" ? &p.y : property.name == "z" ? &p.z : nullptr;
+      double* coordinate = property.name == "x"   ? &p.x
+                           : property.name == "y" ? &p.y
+                           : property.name == "z" ? &p.z
+                                                  : nullptr;
       if (coordinate == nullptr || property.list) {
         if (Status skipped = skip(property); !skipped) return skipped;
         continue;
@@ -220,7 +238,8 @@ class BodyReader {
     const bool strips = element.name == "tristrips";
     for (const Property& property : element.properties) {
       const bool corners = property.list && (property.name == "vertex_indices" || property.name == "vertex_index");
-      const Status status = corners && (strips || element.name == "face") ? read_corners(property, strips, number) : skip(property);
+      const Status status =
+          corners && (strips || element.name == "face") ? read_corners(property, strips, number) : skip(property);
       if (!status) return status;
     }
     return std::monostate{};
@@ -299,10 +318,13 @@ Result<PolygonMesh> read_ply(std::string_view text, const Context& context) {
   if (Status checked = check_header(*header); !checked) return checked.error();
   std::unique_ptr<Values> values;
   const std::string& format = header->format;
-  if (format == "ascii") values = std::make_unique<TextValues>(scanner);
+  if (format == "ascii")
+    values = std::make_unique<TextValues>(scanner);
   else if (format == "binary_little_endian" || format == "binary_big_endian")
-    values = std::make_unique<BinaryValues>(text.substr(std::min(scanner.position(), text.size())), format == "binary_big_endian");
-  else return Error{ErrorCode::input, "PLY format " + quoted(format) + " is unknown", "header", ""};
+    values = std::make_unique<BinaryValues>(text.substr(std::min(scanner.position(), text.size())),
+                                            format == "binary_big_endian");
+  else
+    return Error{ErrorCode::input, "PLY format " + quoted(format) + " is unknown", "header", ""};
   PolygonMesh mesh;
   BodyReader body(*values, mesh, context);
   for (const Element& element : header->elements)

@@ -52,7 +52,12 @@ bool fan_is_proper(const std::vector<Point>& p) {
 class EarClipper {
  public:
   EarClipper(const std::vector<Point>& plane, std::span<const std::uint32_t> polygon, std::vector<Triangle>& triangles)
-      : p_(plane), polygon_(polygon), triangles_(triangles), before_(plane.size()), after_(plane.size()), left_(plane.size()) {
+      : p_(plane),
+        polygon_(polygon),
+        triangles_(triangles),
+        before_(plane.size()),
+        after_(plane.size()),
+        left_(plane.size()) {
     for (std::size_t i = 0; i < left_; ++i) before_[i] = (i + left_ - 1) % left_, after_[i] = (i + 1) % left_;
   }
 
@@ -84,7 +89,8 @@ class EarClipper {
     for (std::size_t j = after_[after_[i]]; j != before_[i]; j = after_[j]) {
       const Point q = p_[j];
       if (q == a || q == b || q == c) continue;
-      if (kernel::orientation(a, b, q) >= 0 && kernel::orientation(b, c, q) >= 0 && kernel::orientation(c, a, q) >= 0) return false;
+      if (kernel::orientation(a, b, q) >= 0 && kernel::orientation(b, c, q) >= 0 && kernel::orientation(c, a, q) >= 0)
+        return false;
     }
     return true;
   }
@@ -116,7 +122,8 @@ std::string counted(std::size_t n, const char* one, const char* many) {
 
 }  // namespace
 
-bool triangulate(std::span<const Point3> vertices, std::span<const std::uint32_t> polygon, std::vector<Triangle>& triangles) {
+bool triangulate(std::span<const Point3> vertices, std::span<const std::uint32_t> polygon,
+                 std::vector<Triangle>& triangles) {
   if (polygon.size() == 3) {
     triangles.push_back({polygon[0], polygon[1], polygon[2]});
     return true;
@@ -150,16 +157,20 @@ Result<TriangleMesh> cut_into_triangles(PolygonMesh mesh, const Context& context
       polygon.push_back(std::uint32_t(v));
     }
     drop_repetitions(polygon);
-    if (polygon.size() < 3) ++too_small;
-    else if (!triangulate(mesh.vertices, polygon, result.triangles)) ++crossing;
+    if (polygon.size() < 3)
+      ++too_small;
+    else if (!triangulate(mesh.vertices, polygon, result.triangles))
+      ++crossing;
   }
   if (result.triangles.empty()) {
     return Error{ErrorCode::input, mesh.vertices.empty() ? "has no triangles" : "has points but no triangles", "",
                  "give a mesh of triangles or polygons"};
   }
   result.notes = std::move(mesh.notes);
-  if (too_small > 0) result.notes.push_back("note: " + counted(too_small, "face", "faces") + " with fewer than three corners left out");
-  if (crossing > 0) result.notes.push_back("note: " + counted(crossing, "polygon crosses itself", "polygons cross themselves"));
+  if (too_small > 0)
+    result.notes.push_back("note: " + counted(too_small, "face", "faces") + " with fewer than three corners left out");
+  if (crossing > 0)
+    result.notes.push_back("note: " + counted(crossing, "polygon crosses itself", "polygons cross themselves"));
   result.vertices = std::move(mesh.vertices);
   return result;
 }

@@ -12,13 +12,14 @@
 
 namespace krepl::input {
 
-/// A mesh as files have it: polygons over shared vertices, each with the line or running number that names it in errors.
+/// A mesh as files have it: polygons over shared vertices, each with the line or running number that names it in
+/// errors.
 struct PolygonMesh {
   std::vector<Point3> vertices;
-  std::vector<std::int64_t> corners;      ///< vertices of polygon i: corners[begin[i] .. begin[i+1])
+  std::vector<std::int64_t> corners;  ///< vertices of polygon i: corners[begin[i] .. begin[i+1])
   std::vector<std::uint64_t> begin{0};
   std::vector<std::uint64_t> place;
-  const char* place_name = "line";        ///< what `place` counts
+  const char* place_name = "line";  ///< what `place` counts
   std::vector<std::string> notes;
 
   std::size_t polygon_count() const { return place.size(); }
@@ -38,9 +39,9 @@ struct TriangleMesh {
 /// vertex, no polygon at all, more than 2^32 vertices, cancelled.
 Result<TriangleMesh> cut_into_triangles(PolygonMesh mesh, const Context& context = {});
 
-/// Cuts one polygon (three corners or more, in order) by clipping ears in the coordinate plane that it faces most; exact where
-/// the polygon is simple there. Returns false if no ear was left: then it crosses itself, and its triangles overlap. O(n) for
-/// convex polygons, about O(n^2) for others.
+/// Cuts one polygon (three corners or more, in order) by clipping ears in the coordinate plane that it faces most;
+/// exact where the polygon is simple there. Returns false if no ear was left: then it crosses itself, and its triangles
+/// overlap. O(n) for convex polygons, about O(n^2) for others.
 bool triangulate(std::span<const Point3> vertices, std::span<const std::uint32_t> polygon,
                  std::vector<std::array<std::uint32_t, 3>>& triangles);
 

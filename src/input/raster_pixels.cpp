@@ -46,11 +46,14 @@ Result<GDALRasterBand*> choose_band(GDALDataset& dataset, int wanted, std::vecto
   const int count = dataset.GetRasterCount();
   if (count == 0) return no_band(dataset);
   if (wanted < 0 || wanted > count) {
-    return Error{ErrorCode::usage, fmt::format("there is no band {}", wanted), "", count == 1 ? "there is one band" : fmt::format("the bands are 1 to {}", count)};
+    return Error{ErrorCode::usage, fmt::format("there is no band {}", wanted), "",
+                 count == 1 ? "there is one band" : fmt::format("the bands are 1 to {}", count)};
   }
   GDALRasterBand* band = dataset.GetRasterBand(wanted == 0 ? 1 : wanted);
-  if (GDALDataTypeIsComplex(band->GetRasterDataType()) != 0) return Error{ErrorCode::input, "holds complex numbers", "", "give a raster of heights"};
-  if (wanted == 0 && count > 1) notes.push_back(fmt::format("note: band 1 of {} is taken as heights; see --band", count));
+  if (GDALDataTypeIsComplex(band->GetRasterDataType()) != 0)
+    return Error{ErrorCode::input, "holds complex numbers", "", "give a raster of heights"};
+  if (wanted == 0 && count > 1)
+    notes.push_back(fmt::format("note: band 1 of {} is taken as heights; see --band", count));
   return band;
 }
 
@@ -87,7 +90,8 @@ Scale scale_of(GDALRasterBand& band, double z_scale, std::vector<std::string>& n
   return scale;
 }
 
-void note_unit(GDALRasterBand& band, const TerrainRequest& request, const RasterPixels& pixels, std::vector<std::string>& notes) {
+void note_unit(GDALRasterBand& band, const TerrainRequest& request, const RasterPixels& pixels,
+               std::vector<std::string>& notes) {
   const std::string unit = band.GetUnitType();
   if (unit.empty() || request.z_scale != 1 || !pixels.crs) return;
   if (unit == "m" || unit == "metre" || unit == "meter" || unit == "metres" || unit == "meters") return;
@@ -96,7 +100,8 @@ void note_unit(GDALRasterBand& band, const TerrainRequest& request, const Raster
 
 Error infinite_height(const RasterPixels& pixels, std::size_t column, std::size_t row) {
   const Point at = pixels.place(double(column) + 0.5, double(row) + 0.5);
-  return {ErrorCode::input, "a height is infinite", fmt::format("column {}, row {} ({} {})", column, row, at.x, at.y), "correct it, or mark it as no data: gdal_translate -a_nodata"};
+  return {ErrorCode::input, "a height is infinite", fmt::format("column {}, row {} ({} {})", column, row, at.x, at.y),
+          "correct it, or mark it as no data: gdal_translate -a_nodata"};
 }
 
 class RowReader {
@@ -107,16 +112,19 @@ class RowReader {
   Status read(std::size_t first, std::size_t count) {
     ogr::MessageCapture messages;
     const auto failed = [&] {
-      return messages.error(ErrorCode::io, "cannot be read to its end", fmt::format("row {}", first), "the file seems to be damaged: get it again");
+      return messages.error(ErrorCode::io, "cannot be read to its end", fmt::format("row {}", first),
+                            "the file seems to be damaged: get it again");
     };
     const int row = int(first), columns = int(pixels_.columns), rows = int(count);
     double* heights = pixels_.heights.data() + first * pixels_.columns;
-    if (band_.RasterIO(GF_Read, 0, row, columns, rows, heights, columns, rows, GDT_Float64, 0, 0, nullptr) != CE_None || messages.failed()) {
+    if (band_.RasterIO(GF_Read, 0, row, columns, rows, heights, columns, rows, GDT_Float64, 0, 0, nullptr) != CE_None ||
+        messages.failed()) {
       return failed();
     }
     if (masked_) {
       mask_.resize(pixels_.columns * count);
-      if (band_.GetMaskBand()->RasterIO(GF_Read, 0, row, columns, rows, mask_.data(), columns, rows, GDT_Byte, 0, 0, nullptr) != CE_None) {
+      if (band_.GetMaskBand()->RasterIO(GF_Read, 0, row, columns, rows, mask_.data(), columns, rows, GDT_Byte, 0, 0,
+                                        nullptr) != CE_None) {
         return failed();
       }
     }

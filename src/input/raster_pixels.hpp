@@ -36,6 +36,7 @@ Result<RasterPixels> read_pixels(GDALDataset& dataset, const TerrainRequest& req
 Status check_size(const RasterPixels& pixels);
 
 /// The third: resamples the pixels to `to_crs` if it is given; checks that the coordinates are in a plane.
-Status project_pixels(RasterPixels& pixels, const std::string& to_crs, std::vector<std::string>& notes, const Context& context);
+Status project_pixels(RasterPixels& pixels, const std::string& to_crs, std::vector<std::string>& notes,
+                      const Context& context);
 
 }  // namespace krepl::input

@@ -1,6 +1,6 @@
-// Rasters in another coordinate system. GDAL finds the new raster's place and cell size; the heights are interpolated here,
-// because its warper's weights bend planes and do not even keep a constant to the last bit, so that lakes would lose their
-// flatness.
+// Rasters in another coordinate system. GDAL finds the new raster's place and cell size; the heights are interpolated
+// here, because its warper's weights bend planes and do not even keep a constant to the last bit, so that lakes would
+// lose their flatness.
 #include <cpl_string.h>
 #include <fmt/format.h>
 #include <gdal_alg.h>
@@ -25,7 +25,8 @@ Parts border(const RasterPixels& pixels) {
   Parts parts;
   for (int i = 0; i < steps; ++i) {
     const double u = double(i) / steps, c = double(pixels.columns), r = double(pixels.rows);
-    for (const Point p : {pixels.place(u * c, 0), pixels.place(c, u * r), pixels.place(c - u * c, r), pixels.place(0, r - u * r)})
+    for (const Point p :
+         {pixels.place(u * c, 0), pixels.place(c, u * r), pixels.place(c - u * c, r), pixels.place(0, r - u * r)})
       parts.points.push_back(p);
   }
   parts.begin.push_back(parts.points.size());
@@ -35,21 +36,26 @@ Parts border(const RasterPixels& pixels) {
 }
 
 /// North up, with square pixels about as large as the given ones.
-Result<RasterPixels> new_frame(const RasterPixels& pixels, const OGRSpatialReference& from, const OGRSpatialReference& to) {
+Result<RasterPixels> new_frame(const RasterPixels& pixels, const OGRSpatialReference& from,
+                               const OGRSpatialReference& to) {
   ogr::MessageCapture messages;
-  const Error failed{ErrorCode::input, "cannot be resampled to " + ogr::crs_name(to), "", "choose another --to-crs or cut the raster"};
+  const Error failed{ErrorCode::input, "cannot be resampled to " + ogr::crs_name(to), "",
+                     "choose another --to-crs or cut the raster"};
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("MEM");
-  const std::unique_ptr<GDALDataset> frame(driver->Create("", int(pixels.columns), int(pixels.rows), 0, GDT_Float64, nullptr));
+  const std::unique_ptr<GDALDataset> frame(
+      driver->Create("", int(pixels.columns), int(pixels.rows), 0, GDT_Float64, nullptr));
   if (!frame) return failed;
   frame->SetGeoTransform(const_cast<double*>(pixels.transform.data()));
   CPLStringList options;
   options.SetNameValue("SRC_SRS", ogr::crs_definition(from).c_str());
   options.SetNameValue("DST_SRS", ogr::crs_definition(to).c_str());
   GDALDatasetH handle = GDALDataset::ToHandle(frame.get());
-  const std::unique_ptr<void, void (*)(void*)> transformer(GDALCreateGenImgProjTransformer2(handle, nullptr, options.List()), GDALDestroyGenImgProjTransformer);
+  const std::unique_ptr<void, void (*)(void*)> transformer(
+      GDALCreateGenImgProjTransformer2(handle, nullptr, options.List()), GDALDestroyGenImgProjTransformer);
   RasterPixels result;
   int columns = 0, rows = 0;
-  if (!transformer || GDALSuggestedWarpOutput(handle, GDALGenImgProjTransform, transformer.get(), result.transform.data(), &columns, &rows) != CE_None) {
+  if (!transformer || GDALSuggestedWarpOutput(handle, GDALGenImgProjTransform, transformer.get(),
+                                              result.transform.data(), &columns, &rows) != CE_None) {
     return messages.error(failed.code, failed.what, "", failed.remedy);
   }
   result.columns = std::size_t(columns), result.rows = std::size_t(rows);
@@ -73,7 +79,8 @@ class Interpolation {
     for (const double shift : {0.0, turn_, -turn_}) {  // longitudes may be counted from another meridian
       const double dx = x + shift - p_.transform[0], dy = y - p_.transform[3];
       const double column = inverse_[0] * dx + inverse_[1] * dy - 0.5, row = inverse_[2] * dx + inverse_[3] * dy - 0.5;
-      if (column >= 0 && row >= 0 && column <= double(p_.columns - 1) && row <= double(p_.rows - 1)) return between(column, row);
+      if (column >= 0 && row >= 0 && column <= double(p_.columns - 1) && row <= double(p_.rows - 1))
+        return between(column, row);
     }
     return missing;
   }
@@ -96,7 +103,8 @@ class Interpolation {
 };
 
 /// Fills the heights of `result` from those of `pixels`, row by row.
-Status interpolate(const RasterPixels& pixels, RasterPixels& result, OGRCoordinateTransformation& back, const Context& context) {
+Status interpolate(const RasterPixels& pixels, RasterPixels& result, OGRCoordinateTransformation& back,
+                   const Context& context) {
   const Interpolation heights(pixels, pixels.crs->IsGeographic() != 0);
   result.heights.resize(result.columns * result.rows);
   std::vector<double> x(result.columns), y(result.columns);
@@ -118,25 +126,31 @@ Status interpolate(const RasterPixels& pixels, RasterPixels& result, OGRCoordina
 
 }  // namespace
 
-Status project_pixels(RasterPixels& pixels, const std::string& to_crs, std::vector<std::string>& notes, const Context& context) {
+Status project_pixels(RasterPixels& pixels, const std::string& to_crs, std::vector<std::string>& notes,
+                      const Context& context) {
   Parts parts = border(pixels);
   std::vector<std::string> ignored;
-  const auto plane = project(parts, {pixels.crs, to_crs, [](std::int64_t) { return "border of the raster"; }}, ignored, context);
+  const auto plane =
+      project(parts, {pixels.crs, to_crs, [](std::int64_t) { return "border of the raster"; }}, ignored, context);
   if (!plane) {
     Error error = plane.error();
-    if (error.where.starts_with("border")) error.remedy = "choose another --to-crs or cut the raster: gdal_translate -projwin";
+    if (error.where.starts_with("border"))
+      error.remedy = "choose another --to-crs or cut the raster: gdal_translate -projwin";
     return error;
   }
-  if (to_crs.empty()) return std::monostate{};
+  const bool north_up = pixels.transform[2] == 0 && pixels.transform[4] == 0;
+  if (to_crs.empty() || (north_up && pixels.crs->IsSame(&**plane) != 0)) return std::monostate{};
   OGRSpatialReference from = *pixels.crs;
   from.StripVertical();  // heights stay what they are
   Result<RasterPixels> result = new_frame(pixels, from, **plane);
   if (!result) return result.error();
   if (Status size = check_size(*result); !size) return size.error();
   const std::unique_ptr<OGRCoordinateTransformation> back(OGRCreateCoordinateTransformation(&**plane, &from));
-  if (!back) return Error{ErrorCode::input, "cannot be resampled to " + ogr::crs_name(**plane), "", "choose another --to-crs"};
+  if (!back)
+    return Error{ErrorCode::input, "cannot be resampled to " + ogr::crs_name(**plane), "", "choose another --to-crs"};
   if (Status filled = interpolate(pixels, *result, *back, context); !filled) return filled;
-  notes.push_back(fmt::format("note: resampled (bilinear) to {}, cells {:.6g} x {:.6g}", ogr::crs_name(**plane), result->transform[1], -result->transform[5]));
+  notes.push_back(fmt::format("note: resampled (bilinear) to {}, cells {:.6g} x {:.6g}", ogr::crs_name(**plane),
+                              result->transform[1], -result->transform[5]));
   pixels = std::move(*result);
   return std::monostate{};
 }

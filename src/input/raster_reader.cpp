@@ -54,7 +54,9 @@ void note_likely_degrees(const RasterData& data, std::vector<std::string>& notes
   for (const double h : data.heights)
     if (!std::isnan(h)) least = std::min(least, h), most = std::max(most, h);
   if (!(most - least > 10 * std::max(width, height))) return;
-  notes.emplace_back("note: no coordinate system is given and the coordinates look like degrees; if they are, name it with --crs and add --to-crs auto");
+  notes.emplace_back(
+      "note: no coordinate system is given and the coordinates look like degrees; if they are, name it with --crs and "
+      "add --to-crs auto");
 }
 
 }  // namespace

@@ -21,7 +21,9 @@ double single_precision(const char* bytes) { return double(std::bit_cast<float>(
 
 /// Many binary files begin with "solid" too; a size that fits the count says more.
 bool is_binary(std::string_view text) {
-  if (text.size() >= header_size && text.size() == header_size + record_size * std::uint64_t{little_endian(text.data() + 80)}) return true;
+  if (text.size() >= header_size &&
+      text.size() == header_size + record_size * std::uint64_t{little_endian(text.data() + 80)})
+    return true;
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos || lower_case(text.substr(first, 5)) != "solid") return true;
   return text.substr(0, 1024).find('\0') != std::string_view::npos;
@@ -32,7 +34,8 @@ Result<PolygonMesh> read_binary(std::string_view text, const Context& context) {
   if (text.size() < header_size) return Error{ErrorCode::input, "is too short for STL", "", cut_off};
   const std::uint64_t count = little_endian(text.data() + 80), held = (text.size() - header_size) / record_size;
   if (count > held) {
-    return Error{ErrorCode::input, "ends after " + std::to_string(held) + " of " + std::to_string(count) + " triangles", "", cut_off};
+    return Error{ErrorCode::input, "ends after " + std::to_string(held) + " of " + std::to_string(count) + " triangles",
+                 "", cut_off};
   }
   PolygonMesh mesh;
   mesh.place_name = "triangle";
@@ -44,14 +47,16 @@ Result<PolygonMesh> read_binary(std::string_view text, const Context& context) {
     for (int k = 0; k < 3; ++k, record += 12) {
       const Point3 p{single_precision(record), single_precision(record + 4), single_precision(record + 8)};
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-        return Error{ErrorCode::input, "a coordinate is not finite", "triangle " + std::to_string(t), "repair the mesh"};
+        return Error{ErrorCode::input, "a coordinate is not finite", "triangle " + std::to_string(t),
+                     "repair the mesh"};
       }
       mesh.corners.push_back(std::int64_t(mesh.vertices.size()));
       mesh.vertices.push_back(p);
     }
     mesh.close_polygon(t);
   }
-  if (text.size() > header_size + record_size * count) mesh.notes.emplace_back("note: bytes after the last triangle ignored");
+  if (text.size() > header_size + record_size * count)
+    mesh.notes.emplace_back("note: bytes after the last triangle ignored");
   return mesh;
 }
 

@@ -172,11 +172,22 @@ class SubdivisionReader {
   std::size_t item_ = 0;
 };
 
+using FileHandle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+FileHandle open_file(const std::string& path) { return {std::fopen(path.c_str(), "rb"), std::fclose}; }
+
 }  // namespace
 
+bool looks_like_subdivision(const std::string& path) {
+  const FileHandle file = open_file(path);
+  if (!file) return false;
+  std::string head(4096, '\0');
+  head.resize(std::fread(head.data(), 1, head.size(), file.get()));
+  return head.find("\"krepl\"") != std::string::npos && head.find("\"subdivision\"") != std::string::npos;
+}
+
 Result<SubdivisionFile> read_subdivision(const std::string& path, const Context& context) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(path == "-" ? stdin : std::fopen(path.c_str(), "rb"),
-                                                            [](std::FILE* f) { return f == stdin ? 0 : std::fclose(f); });
+  const FileHandle file = open_file(path);
   if (!file) return Error{ErrorCode::io, std::string("cannot be read: ") + std::strerror(errno), "", ""};
   return SubdivisionReader(file.get(), context).read();
 }

@@ -60,4 +60,7 @@ struct SubdivisionFile {
 /// three points, a number that no double holds; another "krepl" or "version" than subdivision 1; cancelled.
 Result<SubdivisionFile> read_subdivision(const std::string& path, const Context& context = {});
 
+/// Whether a file begins like a subdivision and not like GeoJSON.
+bool looks_like_subdivision(const std::string& path);
+
 }  // namespace krepl::input

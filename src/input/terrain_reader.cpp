@@ -44,7 +44,10 @@ Status check_request(const TerrainRequest& request, bool mesh) {
     return Error{ErrorCode::usage, "the factor of the heights is not a finite number other than zero", "", ""};
   }
   if (!mesh) return std::monostate{};
-  const char* option = request.split ? "--split" : request.band != 0 ? "--band" : !request.to_crs.empty() ? "--to-crs" : nullptr;
+  const char* option = request.split             ? "--split"
+                       : request.band != 0       ? "--band"
+                       : !request.to_crs.empty() ? "--to-crs"
+                                                 : nullptr;
   if (option == nullptr) return std::monostate{};
   return Error{ErrorCode::usage, std::string(option) + " is for rasters, not for meshes", "", "leave it out"};
 }
@@ -56,13 +59,15 @@ Result<std::optional<OGRSpatialReference>> crs_of_mesh(const std::string& given)
   Result<OGRSpatialReference> parsed = ogr::parse_crs(given);
   if (!parsed) return parsed.error();
   if (parsed->IsGeographic() != 0 || parsed->IsGeocentric() != 0) {
-    return Error{ErrorCode::input, "coordinates are in degrees (" + ogr::crs_name(*parsed) + "), not in a plane", "", "project the mesh first"};
+    return Error{ErrorCode::input, "coordinates are in degrees (" + ogr::crs_name(*parsed) + "), not in a plane", "",
+                 "project the mesh first"};
   }
   crs = *parsed;
   return crs;
 }
 
-Result<TerrainFile> finish(Result<Terrain> terrain, const std::optional<OGRSpatialReference>& crs, std::vector<std::string> notes) {
+Result<TerrainFile> finish(Result<Terrain> terrain, const std::optional<OGRSpatialReference>& crs,
+                           std::vector<std::string> notes) {
   if (!terrain) return terrain.error();
   TerrainFile file;
   file.terrain = std::make_shared<const Terrain>(std::move(*terrain));
@@ -71,7 +76,8 @@ Result<TerrainFile> finish(Result<Terrain> terrain, const std::optional<OGRSpati
   return file;
 }
 
-Result<TerrainFile> from_mesh(std::vector<char> text, MeshFormat format, const TerrainRequest& request, const Context& context) {
+Result<TerrainFile> from_mesh(std::vector<char> text, MeshFormat format, const TerrainRequest& request,
+                              const Context& context) {
   if (Status checked = check_request(request, true); !checked) return checked.error();
   const auto crs = crs_of_mesh(request.crs);
   if (!crs) return crs.error();
@@ -80,7 +86,8 @@ Result<TerrainFile> from_mesh(std::vector<char> text, MeshFormat format, const T
   text = {};
   if (request.z_scale != 1)
     for (Point3& p : mesh->vertices) p.z *= request.z_scale;
-  return finish(Terrain::from_triangles(std::move(mesh->vertices), std::move(mesh->triangles), context), *crs, std::move(mesh->notes));
+  return finish(Terrain::from_triangles(std::move(mesh->vertices), std::move(mesh->triangles), context), *crs,
+                std::move(mesh->notes));
 }
 
 Result<TerrainFile> from_raster(const std::string& vsi_path, const TerrainRequest& request, const Context& context) {
@@ -88,14 +95,16 @@ Result<TerrainFile> from_raster(const std::string& vsi_path, const TerrainReques
   Result<RasterData> raster = read_raster(vsi_path, request, context);
   if (!raster) return raster.error();
   raster->grid.split = request.split.value_or(Terrain::Split::rising);
-  return finish(Terrain::from_grid(raster->grid, std::move(raster->heights), context), raster->crs, std::move(raster->notes));
+  return finish(Terrain::from_grid(raster->grid, std::move(raster->heights), context), raster->crs,
+                std::move(raster->notes));
 }
 
 Result<TerrainFile> from_stream(const TerrainRequest& request, const Context& context) {
   Result<std::vector<char>> text = read_whole_file(request.path, context);
   if (!text) return text.error();
   if (text->empty()) return Error{ErrorCode::input, "is empty", "", "give a raster or mesh as text"};
-  if (const auto format = recognised({text->data(), text->size()})) return from_mesh(std::move(*text), *format, request, context);
+  if (const auto format = recognised({text->data(), text->size()}))
+    return from_mesh(std::move(*text), *format, request, context);
   ogr::initialise();
   const MemoryFile file(std::move(*text), "txt");
   return from_raster(file.path(), request, context);

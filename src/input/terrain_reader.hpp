@@ -27,11 +27,11 @@ struct TerrainFile {
   std::vector<std::string> notes;  ///< what the user should know: resampling, bands and vertices left out, and the like
 };
 
-/// Reads a terrain or part. The extension says whether it is a mesh; everything else is a raster. On standard input (`-`)
-/// the text itself tells: OFF, PLY, STL and OBJ are recognised, anything else is left to GDAL.
+/// Reads a terrain or part. The extension says whether it is a mesh; everything else is a raster. On standard input
+/// (`-`) the text itself tells: OFF, PLY, STL and OBJ are recognised, anything else is left to GDAL.
 ///
-/// Errors: no such file, a directory, an empty or truncated file, not a format that is read, options of rasters given with a
-/// mesh (usage), and all that read_raster, read_mesh and the constructors of Terrain report.
+/// Errors: no such file, a directory, an empty or truncated file, not a format that is read, options of rasters given
+/// with a mesh (usage), and all that read_raster, read_mesh and the constructors of Terrain report.
 Result<TerrainFile> read_terrain(const TerrainRequest& request, const Context& context = {});
 
 /// Extensions that read_terrain takes for meshes, without dot.

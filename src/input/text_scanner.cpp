@@ -87,7 +87,8 @@ Result<double> TextScanner::number(std::string_view word, const char* what) cons
   if (end != digits.data() + digits.size() || status == std::errc::invalid_argument) {
     return error(std::string(what) + " " + quoted(word) + " is not a number");
   }
-  if (status == std::errc::result_out_of_range) return error(std::string(what) + " " + quoted(word) + " is out of the range of numbers");
+  if (status == std::errc::result_out_of_range)
+    return error(std::string(what) + " " + quoted(word) + " is out of the range of numbers");
   if (!std::isfinite(value)) return error(std::string(what) + " is not finite");
   return value;
 }

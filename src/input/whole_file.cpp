@@ -62,7 +62,8 @@ Result<std::vector<char>> read_whole_file(const std::string& path, const Context
     got = VSIFReadL(text.data() + before, 1, portion, file.get());
     text.resize(before + got);
   }
-  if (messages.failed()) return messages.error(ErrorCode::io, "cannot be read to its end");
+  if (messages.failed())
+    return messages.error(ErrorCode::io, "cannot be read to its end", "", "the file seems to be damaged: get it again");
   return text;
 }
 

@@ -38,7 +38,8 @@ class ExactSum {
 };
 
 inline int exact_orientation(Point a, Point b, Point c) {
-  const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y), std::abs(c.x), std::abs(c.y)});
+  const double largest =
+      std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y), std::abs(c.x), std::abs(c.y)});
   if (largest == 0) return 0;
   // So that no product over- or underflows; coordinates may differ by a factor of 2^900.
   const int exponent = 480 - std::ilogb(largest);
@@ -53,7 +54,8 @@ inline int exact_orientation(Point a, Point b, Point c) {
   return sum.sign();
 }
 
-/// 1 if a, b, c turn left, -1 if they turn right, 0 if they are collinear; exact. [Shewchuk 1997, section 4.1: the filter.]
+/// 1 if a, b, c turn left, -1 if they turn right, 0 if they are collinear; exact. [Shewchuk 1997, section 4.1: the
+/// filter.]
 inline int orientation(Point a, Point b, Point c) {
   const double left_factors[] = {a.x - c.x, b.y - c.y}, right_factors[] = {a.y - c.y, b.x - c.x};
   const double left = left_factors[0] * left_factors[1], right = right_factors[0] * right_factors[1];

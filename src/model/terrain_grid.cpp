@@ -28,27 +28,38 @@ std::size_t rows_per_block(std::size_t columns) { return std::max<std::size_t>(1
 
 Error cancelled() { return {ErrorCode::cancelled, "cancelled", "", ""}; }
 
+/// Neighbouring samples must be apart by more than rounding in every place, as given too, or results could not be told
+/// apart.
+bool cells_are_distinct(double first, double last, double cell) {
+  const double largest = std::max(std::abs(first), std::abs(last));
+  return cell >= 8 * (std::nextafter(largest, infinity) - largest);
+}
+
 Status check_shape(const Terrain::Grid& grid, std::size_t heights) {
   if (grid.columns < 2 || grid.rows < 2) {
-    return Error{ErrorCode::input, "a grid needs 2 x 2 samples or more", std::to_string(grid.columns) + " x " + std::to_string(grid.rows), ""};
+    return Error{ErrorCode::input, "a grid needs 2 x 2 samples or more",
+                 std::to_string(grid.columns) + " x " + std::to_string(grid.rows), ""};
   }
-  if (grid.columns > most_samples / grid.rows) return Error{ErrorCode::input, "there are more than 2^29 samples in the grid", "", "split the input"};
+  if (grid.columns > most_samples / grid.rows)
+    return Error{ErrorCode::input, "there are more than 2^29 samples in the grid", "", "split the input"};
   if (heights != grid.columns * grid.rows) {
     return Error{ErrorCode::usage, "the number of heights is not columns times rows", std::to_string(heights), ""};
   }
   const double last_x = grid.first.x + double(grid.columns - 1) * grid.cell_x;
   const double last_y = grid.first.y + double(grid.rows - 1) * grid.cell_y;
-  if (!std::isfinite(grid.first.x) || !std::isfinite(grid.first.y) || !std::isfinite(last_x) || !std::isfinite(last_y)) {
-    return Error{ErrorCode::input, "the place of the grid is NaN or infinite", "", "correct its first sample or cell size"};
+  if (!std::isfinite(grid.first.x) || !std::isfinite(grid.first.y) || !std::isfinite(last_x) ||
+      !std::isfinite(last_y)) {
+    return Error{ErrorCode::input, "the place of the grid is NaN or infinite", "",
+                 "correct its first sample or cell size"};
   }
-  if (!(grid.cell_x > 0) || !(grid.cell_y > 0)) return Error{ErrorCode::input, "the cell size of the grid is not positive", "", "correct it"};
+  if (!(grid.cell_x > 0) || !(grid.cell_y > 0))
+    return Error{ErrorCode::input, "the cell size of the grid is not positive", "", "correct it"};
+  if (!cells_are_distinct(grid.first.x, last_x, grid.cell_x) ||
+      !cells_are_distinct(grid.first.y, last_y, grid.cell_y)) {
+    return Error{ErrorCode::input, "the cells of the grid are too small for coordinates of that size", "",
+                 "shift or scale the grid"};
+  }
   return std::monostate{};
-}
-
-/// Neighbouring samples must be apart by more than rounding in every place, or cells would have no width.
-bool cells_are_distinct(double first, double last, double cell) {
-  const double largest = std::max(std::abs(first), std::abs(last));
-  return cell >= 8 * (std::nextafter(largest, infinity) - largest);
 }
 
 struct Heights {
@@ -97,24 +108,25 @@ Result<Terrain> Terrain::from_grid(const Grid& grid, std::vector<double> heights
   for (const Heights& part : parts) all.join(part);
   if (all.infinite < count) {
     return Error{ErrorCode::input, "a height is infinite",
-                 "column " + std::to_string(all.infinite % grid.columns) + ", row " + std::to_string(all.infinite / grid.columns), "correct it or mark it as missing"};
+                 "column " + std::to_string(all.infinite % grid.columns) + ", row " +
+                     std::to_string(all.infinite / grid.columns),
+                 "correct it or mark it as missing"};
   }
   if (all.missing == count) return Error{ErrorCode::input, "all samples of the grid are without data", "", ""};
-  if (!std::isfinite(2 * (all.high - all.low))) return Error{ErrorCode::input, "the heights are too large for double precision", "", "scale them down"};
+  if (!std::isfinite(2 * (all.high - all.low)))
+    return Error{ErrorCode::input, "the heights are too large for double precision", "", "scale them down"};
 
   Terrain t;
   t.is_grid_ = true;
   t.grid_ = grid;
   t.report_.missing_samples = all.missing;
   t.origin_ = {exact_origin(grid.first.x, grid.first.x + double(grid.columns - 1) * grid.cell_x),
-               exact_origin(grid.first.y, grid.first.y + double(grid.rows - 1) * grid.cell_y), exact_origin(all.low, all.high)};
+               exact_origin(grid.first.y, grid.first.y + double(grid.rows - 1) * grid.cell_y),
+               exact_origin(all.low, all.high)};
   t.grid_.first = {grid.first.x - t.origin_.x, grid.first.y - t.origin_.y};
-  if (!cells_are_distinct(t.grid_.first.x, t.grid_x(grid.columns - 1), grid.cell_x) ||
-      !cells_are_distinct(t.grid_.first.y, t.grid_y(grid.rows - 1), grid.cell_y)) {
-    return Error{ErrorCode::input, "the grid's cells are too small for its number of samples in double precision", "", ""};
-  }
   t.height_ = std::move(heights);
-  if (t.origin_.z != 0 && !kernel::parallel_blocks(quiet, count, block_samples, [&](std::size_t first, std::size_t last) {
+  if (t.origin_.z != 0 &&
+      !kernel::parallel_blocks(quiet, count, block_samples, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) t.height_[i] -= t.origin_.z;
       })) {
     return cancelled();
@@ -125,7 +137,8 @@ Result<Terrain> Terrain::from_grid(const Grid& grid, std::vector<double> heights
 
 Terrain::Cell Terrain::cell(std::size_t column, std::size_t row) const {
   const std::size_t s = row * grid_.columns + column;
-  const double h00 = height_[s], h10 = height_[s + 1], h01 = height_[s + grid_.columns], h11 = height_[s + grid_.columns + 1];
+  const double h00 = height_[s], h10 = height_[s + 1], h01 = height_[s + grid_.columns],
+               h11 = height_[s + grid_.columns + 1];
   const bool has00 = !std::isnan(h00), has10 = !std::isnan(h10), has01 = !std::isnan(h01), has11 = !std::isnan(h11);
   bool falling = grid_.split == Split::falling;
   if (grid_.split == Split::shorter) {
@@ -168,7 +181,8 @@ Status Terrain::survey_grid(const Context& context) {
   for (const Part& part : parts) {
     all.triangles += part.triangles;
     all.low = {std::min(all.low.x, part.low.x), std::min(all.low.y, part.low.y), std::min(all.low.z, part.low.z)};
-    all.high = {std::max(all.high.x, part.high.x), std::max(all.high.y, part.high.y), std::max(all.high.z, part.high.z)};
+    all.high = {std::max(all.high.x, part.high.x), std::max(all.high.y, part.high.y),
+                std::max(all.high.z, part.high.z)};
   }
   if (all.triangles == 0) {
     return Error{ErrorCode::input, "no triangle is left: no three neighbouring samples of a cell have data", "", ""};

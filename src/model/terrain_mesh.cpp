@@ -1,5 +1,5 @@
-// Terrains from triangles. Vertices are numbered along a Hilbert curve, edges and triangles by their sorted vertices: nothing
-// depends on the order or orientation in which the triangles were given.
+// Terrains from triangles. Vertices are numbered along a Hilbert curve, edges and triangles by their sorted vertices:
+// nothing depends on the order or orientation in which the triangles were given.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,7 +29,8 @@ struct SpaceBox {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   double largest() const {
-    return std::max({std::abs(low.x), std::abs(low.y), std::abs(low.z), std::abs(high.x), std::abs(high.y), std::abs(high.z)});
+    return std::max(
+        {std::abs(low.x), std::abs(low.y), std::abs(low.z), std::abs(high.x), std::abs(high.y), std::abs(high.z)});
   }
 };
 
@@ -55,13 +56,15 @@ class MeshBuilder {
 
   Result<Terrain> build() {
     if (Status checked = check(); !checked) return checked.error();
-    bool (MeshBuilder::*const steps[])() = {&MeshBuilder::weld,       &MeshBuilder::orient,        &MeshBuilder::sort_triangles,
-                                            &MeshBuilder::drop_unused, &MeshBuilder::number_edges, &MeshBuilder::index_vertices,
+    bool (MeshBuilder::*const steps[])() = {&MeshBuilder::weld,           &MeshBuilder::orient,
+                                            &MeshBuilder::sort_triangles, &MeshBuilder::drop_unused,
+                                            &MeshBuilder::number_edges,   &MeshBuilder::index_vertices,
                                             &MeshBuilder::plant_tree};
     for (const auto step : steps)
       if (!(this->*step)() || context_.cancelled()) return cancelled();
     if (t_.triangle_.empty()) {
-      return Error{ErrorCode::input, "no triangle is left: all " + std::to_string(corners_.size()) + " have no area", "", ""};
+      return Error{ErrorCode::input, "no triangle is left: all " + std::to_string(corners_.size()) + " have no area",
+                   "", ""};
     }
     return std::move(t_);
   }
@@ -93,17 +96,23 @@ Status MeshBuilder::check() {
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     for (const Index v : corners_[i]) {
       if (v >= points_.size()) {
-        return Error{ErrorCode::input, "vertex " + std::to_string(v) + " does not exist", "triangle " + std::to_string(i), "there are " + std::to_string(points_.size()) + " vertices, counted from 0"};
+        return Error{ErrorCode::input, "vertex " + std::to_string(v) + " does not exist",
+                     "triangle " + std::to_string(i),
+                     "there are " + std::to_string(points_.size()) + " vertices, counted from 0"};
       }
       if (!finite(points_[v])) {
-        return Error{ErrorCode::input, "a coordinate is NaN or infinite", "triangle " + std::to_string(i) + ", vertex " + std::to_string(v), "repair or remove the triangle"};
+        return Error{ErrorCode::input, "a coordinate is NaN or infinite",
+                     "triangle " + std::to_string(i) + ", vertex " + std::to_string(v),
+                     "repair or remove the triangle"};
       }
       used_[v] = true;
       box_.add(points_[v]);
     }
   }
-  if (!std::isfinite(2 * box_.largest())) return Error{ErrorCode::input, "the coordinates are too large for double precision", "", "scale the input down"};
-  t_.origin_ = {exact_origin(box_.low.x, box_.high.x), exact_origin(box_.low.y, box_.high.y), exact_origin(box_.low.z, box_.high.z)};
+  if (!std::isfinite(2 * box_.largest()))
+    return Error{ErrorCode::input, "the coordinates are too large for double precision", "", "scale the input down"};
+  t_.origin_ = {exact_origin(box_.low.x, box_.high.x), exact_origin(box_.low.y, box_.high.y),
+                exact_origin(box_.low.z, box_.high.z)};
   return std::monostate{};
 }
 
@@ -146,18 +155,20 @@ bool MeshBuilder::weld() {
 /// Sorts the corners of each triangle, drops what has no area, and turns the others counter-clockwise.
 bool MeshBuilder::orient() {
   t_.triangle_.resize(corners_.size());
-  const bool done = kernel::parallel_blocks(context_, corners_.size(), block_size, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      std::array<Index, 3> v = corners_[i];
-      std::sort(v.begin(), v.end());
-      const Point3 a = t_.vertex_[v[0]], b = t_.vertex_[v[1]], c = t_.vertex_[v[2]];
-      const int turn = kernel::orientation({a.x, a.y}, {b.x, b.y}, {c.x, c.y});
-      if (turn < 0) std::swap(v[1], v[2]);
-      if (turn == 0 && kernel::collinear(a, b, c)) v = {Terrain::none, Terrain::none, Terrain::none};
-      t_.triangle_[i] = {v, {}, turn == 0};
-    }
-  });
-  const auto kept = std::remove_if(t_.triangle_.begin(), t_.triangle_.end(), [](const Triangle& t) { return t.vertex[0] == Terrain::none; });
+  const bool done =
+      kernel::parallel_blocks(context_, corners_.size(), block_size, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+          std::array<Index, 3> v = corners_[i];
+          std::sort(v.begin(), v.end());
+          const Point3 a = t_.vertex_[v[0]], b = t_.vertex_[v[1]], c = t_.vertex_[v[2]];
+          const int turn = kernel::orientation({a.x, a.y}, {b.x, b.y}, {c.x, c.y});
+          if (turn < 0) std::swap(v[1], v[2]);
+          if (turn == 0 && kernel::collinear(a, b, c)) v = {Terrain::none, Terrain::none, Terrain::none};
+          t_.triangle_[i] = {v, {}, turn == 0};
+        }
+      });
+  const auto kept = std::remove_if(t_.triangle_.begin(), t_.triangle_.end(),
+                                   [](const Triangle& t) { return t.vertex[0] == Terrain::none; });
   t_.report_.zero_area_triangles = std::size_t(t_.triangle_.end() - kept);
   t_.triangle_.erase(kept, t_.triangle_.end());
   return done;
@@ -265,7 +276,8 @@ bool MeshBuilder::plant_tree() {
   using Box = Terrain::Box;
   const auto groups = [](std::size_t n) { return (n + Terrain::tree_arity - 1) / Terrain::tree_arity; };
   const auto join = [](Box& box, const Box& other) {
-    box = {std::min(box.min_x, other.min_x), std::min(box.min_y, other.min_y), std::max(box.max_x, other.max_x), std::max(box.max_y, other.max_y)};
+    box = {std::min(box.min_x, other.min_x), std::min(box.min_y, other.min_y), std::max(box.max_x, other.max_x),
+           std::max(box.max_y, other.max_y)};
   };
   constexpr Box empty{infinity, infinity, -infinity, -infinity};
   std::vector<Box> level(groups(t_.triangle_.size()), empty);

@@ -25,17 +25,25 @@ void TerrainWindow::fill(const Terrain& terrain, Point low, Point high) {
   vertices_.clear();
   edges_.clear();
   faces_.clear();
-  if (terrain.is_grid()) fill_grid(terrain, low, high);
-  else fill_mesh(terrain, low, high);
+  if (terrain.is_grid())
+    fill_grid(terrain, low, high);
+  else
+    fill_mesh(terrain, low, high);
   connect();
 }
 
 void TerrainWindow::connect() {
-  compress(edges_.size(), faces_.size(), [&](std::size_t f) { return faces_[f].edge; }, edge_face_begin_, edge_face_);
-  compress(vertices_.size(), faces_.size(), [&](std::size_t f) { return faces_[f].vertex; }, vertex_face_begin_,
-           vertex_face_);
-  compress(vertices_.size(), edges_.size(), [&](std::size_t e) { return std::array{edges_[e].a, edges_[e].b}; },
-           vertex_edge_begin_, vertex_edge_);
+  compress(
+      edges_.size(), faces_.size(), [&](std::size_t f) { return faces_[f].edge; }, edge_face_begin_, edge_face_);
+  compress(
+      vertices_.size(), faces_.size(), [&](std::size_t f) { return faces_[f].vertex; }, vertex_face_begin_,
+      vertex_face_);
+  compress(
+      vertices_.size(), edges_.size(),
+      [&](std::size_t e) {
+        return std::array{edges_[e].a, edges_[e].b};
+      },
+      vertex_edge_begin_, vertex_edge_);
 }
 
 }  // namespace krepl

@@ -16,7 +16,8 @@ constexpr unsigned edge_in(unsigned kind) { return 4u << kind; }
 constexpr unsigned edge_core(unsigned kind) { return 32u << kind; }
 constexpr unsigned face_in(unsigned upper) { return 512u << upper; }
 
-/// The cells [first, last] of which the interval [place(cell), place(cell + 1)] meets [low, high]; none if first > last.
+/// The cells [first, last] of which the interval [place(cell), place(cell + 1)] meets [low, high]; none if first >
+/// last.
 struct Interval {
   std::ptrdiff_t first, last;
   bool holds(std::size_t i) const { return first <= std::ptrdiff_t(i) && std::ptrdiff_t(i) <= last; }
@@ -38,8 +39,8 @@ Interval cells_meeting(double low, double high, double size, std::size_t samples
   return cells;
 }
 
-/// A triangle by the window's own numbers of samples, in the order of TerrainWindow::Face. An edge is named by the sample that
-/// its feature number has, and by its kind: 0 to +x, 1 to +y, 2 diagonal.
+/// A triangle by the window's own numbers of samples, in the order of TerrainWindow::Face. An edge is named by the
+/// sample that its feature number has, and by its kind: 0 to +x, 1 to +y, 2 diagonal.
 struct GridTriangle {
   std::array<Index, 3> sample;
   std::array<Index, 3> edge_sample;
@@ -171,17 +172,17 @@ class TerrainWindow::GridFill {
   TerrainWindow& w_;
   const Terrain& t_;
   Interval core_columns_, core_rows_;
-  std::size_t column_, row_;     // the first sample of the window
-  std::size_t columns_, rows_;   // its samples
+  std::size_t column_, row_;    // the first sample of the window
+  std::size_t columns_, rows_;  // its samples
 };
 
 void TerrainWindow::fill_grid(const Terrain& terrain, Point low, Point high) {
   if (!(low.x <= high.x) || !(low.y <= high.y)) return;
   const Terrain::Grid& grid = terrain.grid();
-  const Interval columns = cells_meeting(low.x, high.x, grid.cell_x, grid.columns,
-                                         [&](std::size_t c) { return terrain.grid_x(c); });
-  const Interval rows = cells_meeting(low.y, high.y, grid.cell_y, grid.rows,
-                                      [&](std::size_t r) { return terrain.grid_y(r); });
+  const Interval columns =
+      cells_meeting(low.x, high.x, grid.cell_x, grid.columns, [&](std::size_t c) { return terrain.grid_x(c); });
+  const Interval rows =
+      cells_meeting(low.y, high.y, grid.cell_y, grid.rows, [&](std::size_t r) { return terrain.grid_y(r); });
   if (columns.first > columns.last || rows.first > rows.last) return;
   GridFill(*this, terrain, columns, rows).run();
 }

@@ -42,7 +42,8 @@ class TerrainWindow::MeshFill {
     w_.triangle_.clear();
     for (const Index v : w_.core_vertex_) {
       const auto first = t_.vertex_triangle_.begin();
-      w_.triangle_.insert(w_.triangle_.end(), first + t_.vertex_triangle_begin_[v], first + t_.vertex_triangle_begin_[v + 1]);
+      w_.triangle_.insert(w_.triangle_.end(), first + t_.vertex_triangle_begin_[v],
+                          first + t_.vertex_triangle_begin_[v + 1]);
     }
     sort_unique(w_.triangle_);
     collect(w_.triangle_, w_.vertex_, w_.edge_);
@@ -66,8 +67,10 @@ class TerrainWindow::MeshFill {
     const std::size_t below = level == 0 ? t_.triangle_.size() : t_.tree_[level - 1].size();
     const std::size_t first = index * Terrain::tree_arity, last = std::min(first + Terrain::tree_arity, below);
     for (std::size_t i = first; i < last; ++i) {
-      if (level > 0) descend(level - 1, i);
-      else if (meets(box_of(Index(i)))) w_.core_triangle_.push_back(Index(i));
+      if (level > 0)
+        descend(level - 1, i);
+      else if (meets(box_of(Index(i))))
+        w_.core_triangle_.push_back(Index(i));
     }
   }
 

@@ -86,6 +86,19 @@ const char* name_of(Terrain::FeatureKind kind) {
   return "";
 }
 
+std::vector<Surface::Index> visible_features(const Surface& surface) {
+  const Subdivision& topology = surface.subdivision();
+  std::vector<Surface::Index> features;
+  for (std::size_t f = 0; f < topology.face_count(); ++f) features.push_back(surface.face_feature(Surface::Index(f)));
+  for (std::size_t e = 0; e < topology.edge_count(); ++e) {
+    for (const Surface::Index feature : surface.edge(Surface::Index(e)).feature) features.push_back(feature);
+  }
+  std::sort(features.begin(), features.end());
+  features.erase(std::unique(features.begin(), features.end()), features.end());
+  if (!features.empty() && features.back() == Surface::none) features.pop_back();
+  return features;
+}
+
 Status write_items(OutputStream& stream, std::size_t count, const Context& context,
                    const std::function<void(fmt::memory_buffer&, std::size_t)>& put) {
   constexpr std::size_t block = 512, blocks_at_once = 64;

@@ -26,6 +26,9 @@ const char* name_of(Surface::EdgeKind kind);
 const char* name_of(Surface::Curve curve);
 const char* name_of(Terrain::FeatureKind kind);
 
+/// Features that own a face or a side of an edge, in order of their numbers.
+std::vector<Surface::Index> visible_features(const Surface& surface);
+
 /// Bytes of `count` items, made on all threads by put(buffer, item) and written in their order.
 Status write_items(OutputStream& stream, std::size_t count, const Context& context,
                    const std::function<void(fmt::memory_buffer&, std::size_t)>& put);

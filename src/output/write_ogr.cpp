@@ -1,15 +1,13 @@
 // Formats written by OGR drivers: GeoPackage and FlatGeobuf with true curves, Shapefile and the rest with chords.
-#include <cpl_conv.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
-#include <cstdlib>
-#include <ctime>
 #include <filesystem>
 
 #include "ogr/message_capture.hpp"
 #include "output/atomic_file.hpp"
 #include "output/ogr_geometry.hpp"
+#include "output/ogr_options.hpp"
 #include "output/zone_writers.hpp"
 
 namespace krepl::output {
@@ -17,31 +15,6 @@ namespace krepl::output {
 namespace {
 
 using Dataset = std::unique_ptr<GDALDataset>;
-
-class ScopedOption {
- public:
-  ScopedOption(const char* name, const std::string& value) : name_(name) {
-    CPLSetThreadLocalConfigOption(name, value.c_str());
-  }
-  ~ScopedOption() { CPLSetThreadLocalConfigOption(name_, nullptr); }
-  ScopedOption(const ScopedOption&) = delete;
-  ScopedOption& operator=(const ScopedOption&) = delete;
-
- private:
-  const char* name_;
-};
-
-/// The date that goes into files that want one. The same input must give the same bytes, so it is not today's: it is
-/// SOURCE_DATE_EPOCH where that is set, else the beginning of 1970.
-std::string date(const char* pattern) {
-  const char* epoch = std::getenv("SOURCE_DATE_EPOCH");
-  std::time_t seconds = epoch != nullptr ? static_cast<std::time_t>(std::strtoll(epoch, nullptr, 10)) : 0;
-  std::tm utc{};
-  gmtime_r(&seconds, &utc);
-  char text[64];
-  std::strftime(text, sizeof text, pattern, &utc);
-  return text;
-}
 
 /// Number of coordinates in a geometry: what is compared after reading a file back.
 std::size_t coordinate_count(const OGRGeometry& geometry) {
@@ -108,7 +81,7 @@ Status OgrWriter::create(const std::string& path) {
 
 Result<OGRLayer*> OgrWriter::create_layer(const char* name, OGRwkbGeometryType type) {
   std::vector<std::string> wanted;
-  if (driver_ == "ESRI Shapefile") wanted = {"DBF_DATE_LAST_UPDATE=" + date("%Y-%m-%d")};
+  if (driver_ == "ESRI Shapefile") wanted = {"DBF_DATE_LAST_UPDATE=" + file_date("%Y-%m-%d")};
   // Its index would reorder the features; with a feature per radius there is nothing to search.
   if (driver_ == "FlatGeobuf" && !options_.separate) wanted = {"SPATIAL_INDEX=NO"};
   std::vector<char*> list;
@@ -232,7 +205,7 @@ Status OgrWriter::read_back(const std::string& path) {
 }
 
 Status OgrWriter::write(const std::string& path, std::span<const Zone> zones) {
-  ScopedOption fixed_date("OGR_CURRENT_DATE", date("%Y-%m-%dT%H:%M:%S.000Z"));
+  ScopedOption fixed_date("OGR_CURRENT_DATE", file_date("%Y-%m-%dT%H:%M:%S.000Z"));
   // AtomicFile flushes the finished file once; until then it is nobody's.
   ScopedOption lazy("OGR_SQLITE_SYNCHRONOUS", "OFF");
   // The driver would find out again, in quadratic time, which ring is a hole; write_zone gives rings their right sense.

@@ -15,15 +15,12 @@ using Text = fmt::memory_buffer;
 class SurfaceJson {
  public:
   SurfaceJson(const Surface& surface, const SurfaceFileOptions& options)
-      : surface_(surface), topology_(surface.subdivision()), origin_(surface.terrain().origin()), options_(options) {
-    collect_features();
-  }
+      : surface_(surface), topology_(surface.subdivision()), origin_(surface.terrain().origin()), options_(options),
+        features_(visible_features(surface)) {}
 
   Status write(OutputStream& stream, const Context& context) const;
 
  private:
-  /// Features that own a face or a side of an edge, in order of their numbers; the file numbers them anew.
-  void collect_features();
   void put_feature(Text& text, std::size_t i) const;
   void put_edge(Text& text, std::size_t e) const;
   void put_half_edge(Text& text, std::size_t h) const;
@@ -39,20 +36,10 @@ class SurfaceJson {
   const Subdivision& topology_;
   const Point3 origin_;
   const SurfaceFileOptions& options_;
-  std::vector<Index> features_;
+  const std::vector<Index> features_;  // the file numbers them anew
 };
 
 void put(Text& text, std::string_view s) { text.append(s.data(), s.data() + s.size()); }
-
-void SurfaceJson::collect_features() {
-  for (std::size_t f = 0; f < topology_.face_count(); ++f) features_.push_back(surface_.face_feature(Index(f)));
-  for (std::size_t e = 0; e < topology_.edge_count(); ++e) {
-    for (const Index feature : surface_.edge(Index(e)).feature) features_.push_back(feature);
-  }
-  std::sort(features_.begin(), features_.end());
-  features_.erase(std::unique(features_.begin(), features_.end()), features_.end());
-  if (!features_.empty() && features_.back() == Surface::none) features_.pop_back();
-}
 
 void SurfaceJson::put_feature_number(Text& text, Index feature) const {
   if (feature == Surface::none) return put(text, "null");

@@ -83,10 +83,9 @@ bool Cells::subdivide(const Cell& cell, std::size_t first, int depth) {
   std::array<Index, 4> champions;
   int count = 0;
   for (int i = 0; i < 4; ++i) {
-    // Labels at the corners: the starts of bottom and left, the ends of right and top.
-    const Side& s = cell.side[i];
-    const bool at_end = i == 1 || i == 2;
-    const Index label = at_end && s.last > s.first ? crossings_[s.last - 1].after : s.label;
+    // Labels at the corners: the ends of bottom and top.
+    const Side& s = cell.side[i < 2 ? 0 : 2];
+    const Index label = i % 2 == 1 && s.last > s.first ? crossings_[s.last - 1].after : s.label;
     if (label != none && std::find(champions.begin(), champions.begin() + count, label) == champions.begin() + count) {
       champions[count++] = label;
     }
@@ -99,7 +98,7 @@ bool Cells::subdivide(const Cell& cell, std::size_t first, int depth) {
   }
   const bool smallest = cell.box.larger_side() <= envelope_.smallest_cell();
   bool done = true;
-  if (stack_.size() - begin > 24 || !settle(cell, {stack_.data() + begin, stack_.size() - begin}, smallest)) {
+  if ((!smallest && stack_.size() - begin > 24) || !settle(cell, {stack_.data() + begin, stack_.size() - begin}, smallest)) {
     done = split(cell, begin, depth);
   }
   stack_.resize(begin);

@@ -6,28 +6,36 @@
 #include "krepl/context.hpp"
 #include "model/terrain_access.hpp"
 #include "terrain/drop_cutter_search.hpp"
+#include "terrain/drop_cutter_shortlist.hpp"
 
 namespace krepl::drop {
 
 /// A pyramid of blocks over a grid: 4 x 4 cells, 4 x 4 of those, and so on, each with its highest sample and a plane above
 /// its samples. 16 bytes a block; cells themselves are bounded from their samples when they are needed.
 ///
-/// A cell here is named by its sample with least x and y and owns that sample as a vertex, the edges from it to +x and +y,
-/// its diagonal and its two triangles: whatever feature is the highest, its owner's samples bound it. Samples at the far sides
-/// own what they have, so there are as many cells as samples.
+/// A cell here is named by its sample with least x and y, its triangles by 2 * sample for the one below the diagonal and one
+/// more for the one above.
 class GridPyramid {
  public:
   GridPyramid(const Terrain& terrain, const Scale& scale, const Context& context);
 
-  Search search(Point place, double radius) const;
-  /// Looks at all that may be touched. `first`: the part to look at first, or none.
-  void run(Search& search, Index first) const;
-  /// The cell below a point, or none.
-  Index part_at(Point p) const;
-
-  Point3 point(std::size_t sample) const {
-    return {t_.grid_x(sample % columns_), t_.grid_y(sample / columns_), height(sample)};
+  Search search(Point place, double radius) const { return {scale_, place, radius, moved(place, radius)}; }
+  Survey survey(Point centre, double radius, const ManyPlaces& spread) const {
+    return {scale_, centre, radius, moved(centre, radius), spread};
   }
+  double inverse_unit() const { return scale_.inverse_unit; }
+  double cell() const { return std::sqrt(grid_.cell_x * grid_.cell_y); }
+
+  /// Looks at all triangles that may be touched.
+  void run(Search& search) const;
+  /// Lists all triangles that may be touched over some place of the survey.
+  void list(const Survey& survey, Shortlist& shortlist) const;
+  /// Looks at one triangle.
+  void touch(Search& search, Index triangle) const;
+  /// The triangle below a point, or none.
+  Index triangle_at(Point p) const;
+  /// Precondition: the triangle is there.
+  Part part(Index triangle) const;
 
  private:
   static constexpr std::size_t arity = 4;  // a side
@@ -44,29 +52,45 @@ class GridPyramid {
     std::size_t first_column, last_column, first_row, last_row;
   };
 
-  double height(std::size_t sample) const { return heights_[sample]; }
-  /// Of a cell without missing samples, given its first one: as Terrain::cell() has it.
-  bool is_falling(const double* z) const {
-    if (grid_.split != Terrain::Split::shorter) return grid_.split == Terrain::Split::falling;
-    return std::abs(z[1] - z[columns_]) < std::abs(z[0] - z[columns_ + 1]);
+  /// Corners of a triangle as Terrain::corners() has them: 0 the cell's sample, 1 in +x, 2 in +y, 3 in both.
+  static const std::array<unsigned, 3>& corners_of(bool falling, bool upper) {
+    static constexpr std::array<unsigned, 3> corners[2][2] = {{{0, 1, 3}, {0, 3, 2}}, {{0, 1, 2}, {1, 3, 2}}};
+    return corners[falling][upper];
+  }
+  TerrainAccess::Cell cell(std::size_t column, std::size_t row) const {
+    if (complete_ && grid_.split == Terrain::Split::rising) [[likely]] return {false, true, true};
+    return t_.cell(column, row);
   }
   void build_level(std::size_t level, const Context& context);
   void bound_block(std::size_t level, std::size_t column, std::size_t row, Node& node, std::size_t child) const;
 
-  bool reach(const Search& search, Reach& reach) const;
+  Moved moved(Point place, double radius) const;
+  template <class Query>
+  bool reach(const Query& query, double margin_x, double margin_y, Reach& reach) const;
+  /// Calls visit(level, column, row) for the nodes that hold all cells of a reach: four at most if there are enough levels.
+  template <class Visit>
+  void start(const Reach& reach, const Visit& visit) const;
+  static bool is_small(const Reach& reach);
+  /// Bounds of the blocks of a node, row by row; returns which are worth a look, as bits.
+  template <class Query>
+  unsigned bound_children(const Query& query, const Reach& reach, std::size_t level, std::size_t column, std::size_t row,
+                          float* bounds) const;
   template <std::size_t capacity>
   void add_children(const Search& search, const Reach& reach, std::size_t level, std::size_t column, std::size_t row,
                     Candidates<capacity>& found) const;
   template <std::size_t capacity>
   void visit(Search& search, const Reach& reach, std::size_t level, const Candidates<capacity>& found) const;
-  void visit_cells(Search& search, std::size_t column, std::size_t first_row, std::size_t last_row) const;
-  void load(std::size_t column, std::size_t row, Float4& here, Float4& east) const;
+  void list_node(const Survey& survey, const Reach& reach, std::size_t level, std::size_t column, std::size_t row,
+                 Shortlist& shortlist) const;
 
-  void touch_cell(Search& search, std::size_t column, std::size_t row) const;
-  void touch_whole_cell(Search& search, std::size_t sample, std::size_t column, std::size_t row) const;
-  void touch_border_cell(Search& search, std::size_t column, std::size_t row) const;
-  bool has_triangle(std::size_t column, std::size_t row, unsigned with) const;
-  bool in_use(std::size_t column, std::size_t row, Index k) const;
+  // Cells, four a row, from first_row to last_row (8 rows at most).
+  template <class Query>
+  unsigned bound_cells(const Query& query, std::size_t column, std::size_t first_row, std::size_t last_row, float* bounds) const;
+  void load(std::size_t column, std::size_t row, Float4& here, Float4& east) const;
+  void visit_cells(Search& search, std::size_t column, std::size_t first_row, std::size_t last_row) const;
+  void list_cells(const Survey& survey, std::size_t column, std::size_t first_row, std::size_t last_row,
+                  Shortlist& shortlist) const;
+  FourTriangles triangles(Point place, const Index* cells, std::size_t count) const;
 
   TerrainAccess t_;
   const double* heights_;

@@ -9,10 +9,8 @@
 namespace krepl::drop {
 namespace {
 
-using Kind = Terrain::FeatureKind;
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Boxes of more than 8^5 triangles have no plane: it would lie far above most of them.
+/// Boxes of more than 8^6 triangles have no plane: it would lie far above most of them.
 constexpr std::size_t levels_with_plane = 5;
 
 /// Slope of the plane that fits points best, from sums over their coordinates relative to some point near them.
@@ -38,13 +36,15 @@ struct Fit {
 MeshTree::MeshTree(const Terrain& terrain, const Scale& scale, const Context& context)
     : t_(terrain), scale_(scale), first_edge_(Index(t_.vertices().size())),
       first_triangle_(Index(t_.vertices().size() + t_.edges().size())) {
-  std::size_t count = t_.triangles().size();
-  do {
+  const double width = terrain.highest().x - terrain.lowest().x, height = terrain.highest().y - terrain.lowest().y;
+  cell_ = std::sqrt(width / double(t_.triangles().size()) * height * 2);
+  build_leaves(context);
+  std::size_t count = leaves_.size();
+  while (count > 1 && !context.cancelled()) {
     count = (count + arity - 1) / arity;
     levels_.emplace_back(count);
     build_level(levels_.size() - 1, context);
-  } while (count > 1 && !context.cancelled());
-  choose_owners();
+  }
 }
 
 std::array<Point3, 3> MeshTree::corners(std::size_t triangle) const {
@@ -54,7 +54,7 @@ std::array<Point3, 3> MeshTree::corners(std::size_t triangle) const {
 
 void MeshTree::build_level(std::size_t level, const Context& context) {
   std::vector<Node>& nodes = levels_[level];
-  std::size_t size = 1;  // triangles of a child
+  std::size_t size = arity;  // triangles of a child
   for (std::size_t k = 0; k < level; ++k) size *= arity;
   const std::size_t portion = std::max<std::size_t>(1, 4096 / size), count = t_.triangles().size();
   kernel::parallel_blocks(context, nodes.size(), portion, [&](std::size_t begin, std::size_t end) {
@@ -96,83 +96,122 @@ void MeshTree::bound_box(std::size_t level, std::size_t first, std::size_t last,
   node.slope_x[k] = sx, node.slope_y[k] = sy;
 }
 
-/// Each edge and vertex is looked at with the first of its triangles only.
-void MeshTree::choose_owners() {
-  std::vector<bool> edge_has(t_.edges().size()), vertex_has(t_.vertices().size());
-  owned_.resize(t_.triangles().size());
-  for (std::size_t t = 0; t < owned_.size(); ++t) {
-    const auto& triangle = t_.triangles()[t];
-    for (unsigned i = 0; i < 3; ++i) {
-      if (!edge_has[triangle.edge[i]]) owned_[t] |= std::uint8_t(1u << i), edge_has[triangle.edge[i]] = true;
-      if (!vertex_has[triangle.vertex[i]]) owned_[t] |= std::uint8_t(8u << i), vertex_has[triangle.vertex[i]] = true;
+void MeshTree::build_leaves(const Context& context) {
+  const std::size_t count = t_.triangles().size();
+  leaves_.resize((count + arity - 1) / arity);
+  kernel::parallel_blocks(context, leaves_.size(), 512, [&](std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n) {
+      Leaf& leaf = leaves_[n];
+      const std::size_t begin = n * arity, end = std::min(begin + arity, count);
+      leaf.origin = {corners(begin)[0].x, corners(begin)[0].y};
+      double width = 0;
+      for (std::size_t t = begin; t < end; ++t)
+        for (const Point3& p : corners(t)) width = std::max({width, std::abs(p.x - leaf.origin.x), std::abs(p.y - leaf.origin.y)});
+      for (std::size_t k = 0; k < arity; ++k) {
+        if (begin + k < end) put(corners(begin + k), slack_per_move * 0x1p-22 * width, leaf, k);
+        else put_nothing(leaf, k);
+      }
     }
-  }
+  });
 }
 
-Search MeshTree::search(Point place, double radius) const {
-  return Search(scale_, place, radius, 0x1p-21 * (std::abs(place.x) + std::abs(place.y) + 2 * scale_.extent));
+/// `slack`: what the rounding of places within the leaf may cost in height.
+void MeshTree::put(const std::array<Point3, 3>& p, double slack, Leaf& leaf, std::size_t k) const {
+  const double unit = scale_.inverse_unit;
+  for (std::size_t i = 0; i < 3; ++i) {
+    leaf.x[i][k] = float((p[i].x - leaf.origin.x) * unit), leaf.y[i][k] = float((p[i].y - leaf.origin.y) * unit);
+  }
+  leaf.top[k] = leaf.z[k] = float(std::max({p[0].z, p[1].z, p[2].z}) * unit);
+  leaf.slope_x[k] = leaf.slope_y[k] = 0;
+  const double ux = p[1].x - p[0].x, uy = p[1].y - p[0].y, uz = p[1].z - p[0].z;
+  const double vx = p[2].x - p[0].x, vy = p[2].y - p[0].y, vz = p[2].z - p[0].z;
+  const double area = ux * vy - uy * vx;
+  const float slope_x = float((uz * vy - uy * vz) / area), slope_y = float((ux * vz - uz * vx) / area);
+  if (!(std::abs(slope_x) <= steepest && std::abs(slope_y) <= steepest)) return;
+  // Rounding may tilt a sliver: a plane of this slope above all corners.
+  const auto at_first = [&](const Point3& q) { return q.z - slope_x * (q.x - p[0].x) - slope_y * (q.y - p[0].y); };
+  leaf.z[k] = float((std::max({p[0].z, at_first(p[1]), at_first(p[2])}) + slack) * unit);
+  leaf.slope_x[k] = slope_x, leaf.slope_y[k] = slope_y;
 }
 
-void MeshTree::run(Search& search, Index first) const {
-  if (first != Terrain::none) {
-    touch_triangle(search, first);
-    search.skip = first;
+/// Out of every ball's reach.
+void MeshTree::put_nothing(Leaf& leaf, std::size_t k) {
+  for (std::size_t i = 0; i < 3; ++i) leaf.x[i][k] = leaf.y[i][k] = float_infinity;
+  leaf.top[k] = leaf.z[k] = -float_infinity;
+  leaf.slope_x[k] = leaf.slope_y[k] = 0;
+}
+
+/// Coordinates of boxes are those of the terrain, coordinates of triangles relative to the place; put() allows for their size.
+Moved MeshTree::moved(Point place, double radius) const {
+  const double farthest = std::abs(place.x) + std::abs(place.y) + 2 * scale_.extent;
+  return {0x1p-23 * farthest, 0x1p-22 * std::min(radius, farthest)};
+}
+
+/// Bounds of the eight children of a node; returns which are worth a look, as bits.
+template <class Query>
+unsigned MeshTree::bound_children(const Query& query, const Node& node, float* bounds) const {
+  const Float4 x = float(query.ball.place.x * scale_.inverse_unit), y = float(query.ball.place.y * scale_.inverse_unit);
+  unsigned worth = 0;
+  for (std::size_t k = 0; k < arity; k += 4) {
+    const auto load = [&](const float* f) { return Float4::load(f + k); };
+    const FourBlocks p{load(node.top),    load(node.level),  load(node.slope_x), load(node.slope_y),
+                       load(node.x0) - x, load(node.x1) - x, load(node.y0) - y,  load(node.y1) - y};
+    worth |= query.worth(p, bounds + k) << k;
   }
-  visit(search, levels_.size() - 1, 0);
+  return worth;
+}
+
+FourTriangles MeshTree::triangles(Point place, const Leaf& leaf, std::size_t k) const {
+  const Float4 x = float((leaf.origin.x - place.x) * scale_.inverse_unit);
+  const Float4 y = float((leaf.origin.y - place.y) * scale_.inverse_unit);
+  const auto load = [&](const float* f) { return Float4::load(f + k); };
+  return {load(leaf.top),      load(leaf.z),        load(leaf.slope_x),  load(leaf.slope_y),  load(leaf.x[0]) + x,
+          load(leaf.y[0]) + y, load(leaf.x[1]) + x, load(leaf.y[1]) + y, load(leaf.x[2]) + x, load(leaf.y[2]) + y};
 }
 
 void MeshTree::visit(Search& search, std::size_t level, std::size_t index) const {
-  const Node& node = levels_[level][index];
-  const float x = float(search.ball.place.x * scale_.inverse_unit), y = float(search.ball.place.y * scale_.inverse_unit);
-  const float blur = search.blur;
   float bounds[arity];
   unsigned worth = 0;
-  for (std::size_t k = 0; k < arity; k += 4) {
-    FourParts p;
-    p.x0 = Float4::load(node.x0 + k) - Float4(x + blur), p.x1 = Float4::load(node.x1 + k) - Float4(x - blur);
-    p.y0 = Float4::load(node.y0 + k) - Float4(y + blur), p.y1 = Float4::load(node.y1 + k) - Float4(y - blur);
-    p.top = Float4::load(node.top + k), p.level = Float4::load(node.level + k);
-    p.slope_x = Float4::load(node.slope_x + k), p.slope_y = Float4::load(node.slope_y + k);
-    const Float4 b = bound(search.bounds, p);
-    b.store(bounds + k);
-    worth |= bits(b >= Float4(search.threshold())) << k;
-  }
+  if (level > 0) worth = bound_children(search, levels_[level - 1][index], bounds);
+  else
+    for (unsigned k = 0; k < arity; k += 4) worth |= search.worth(triangles(search.ball.place, leaves_[index], k), bounds + k) << k;
   Candidates<arity> found;
   for (; worth != 0; worth &= worth - 1) {
     const unsigned child = unsigned(__builtin_ctz(worth));
     found.add(bounds[child], Index(index * arity + child));
   }
   for (const auto& entry : found) {
-    if (entry.bound < search.threshold()) return;
-    if (level == 0) touch_triangle(search, entry.column);
+    if (entry.bound < (level == 0 ? search.threshold_of_triangles() : search.threshold_of_blocks())) return;
+    if (level == 0) touch(search, entry.column);
     else visit(search, level - 1, entry.column);
   }
 }
 
-void MeshTree::touch_triangle(Search& search, Index t) const {
-  if (t == search.skip) return;
+void MeshTree::list(const Survey& survey, Shortlist& shortlist) const {
+  list_node(survey, levels_.size(), 0, shortlist);
+  shortlist.close();
+}
+
+void MeshTree::list_node(const Survey& survey, std::size_t level, std::size_t index, Shortlist& shortlist) const {
+  float bounds[arity];
+  if (level == 0) {
+    for (unsigned k = 0; k < arity; k += 4) {
+      const FourTriangles four = triangles(survey.ball.place, leaves_[index], k);
+      shortlist.add(four, survey.worth(four, bounds), [&](unsigned lane) { return Index(index * arity + k + lane); });
+    }
+    return;
+  }
+  for (unsigned worth = bound_children(survey, levels_[level - 1][index], bounds); worth != 0; worth &= worth - 1) {
+    if (shortlist.overflowed()) return;
+    list_node(survey, level - 1, index * arity + unsigned(__builtin_ctz(worth)), shortlist);
+  }
+}
+
+Part MeshTree::part(Index t) const {
   const auto& triangle = t_.triangles()[t];
-  const std::array<Point3, 3> p = corners(t);
-  const auto offer = [&](double height, Index feature, Kind kind) {
-    if (search.wants(height, feature, kind)) search.take(height, feature, kind, t);
-  };
-  FaceTouch face;  // of a vertical triangle: all sides are worth a look
-  if (!triangle.vertical) {
-    face = touch_face(p[0], p[1], p[2], search.ball);
-    offer(face.height, feature_of_triangle(t), Kind::face);
-  }
-  const unsigned sides = face.beyond & owned_[t];
-  for (unsigned i = 0; i < 3; ++i) {
-    if ((sides & (1u << i)) == 0) continue;
-    // From the lower vertex number to the higher, as Terrain::corners() has it.
-    const unsigned j = (i + 1) % 3;
-    const bool ascending = triangle.vertex[i] < triangle.vertex[j];
-    offer(touch_edge(p[ascending ? i : j], p[ascending ? j : i], search.ball).height, feature_of_edge(triangle.edge[i]), Kind::edge);
-  }
-  if (face.beyond == 0) return;
-  for (unsigned i = 0; i < 3; ++i) {
-    if (owned_[t] & (8u << i)) offer(touch_vertex(p[i], search.ball).height, feature_of_vertex(triangle.vertex[i]), Kind::vertex);
-  }
+  Part p{corners(t), triangle.vertex, triangle.edge, first_triangle_ + t, triangle.vertical};
+  for (Index& e : p.edge) e += first_edge_;
+  return p;
 }
 
 }  // namespace krepl::drop

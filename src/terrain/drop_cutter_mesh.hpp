@@ -6,46 +6,65 @@
 #include "krepl/context.hpp"
 #include "model/terrain_access.hpp"
 #include "terrain/drop_cutter_search.hpp"
+#include "terrain/drop_cutter_shortlist.hpp"
 
 namespace krepl::drop {
 
 /// A packed tree, eight children a node, over the triangles of a mesh in their order, which follows the plane. Every box has
-/// its highest point and a plane above its content. 37 bytes a triangle, and one for which of its features it owns.
+/// its highest point and a plane above its content. 53 bytes a triangle.
 class MeshTree {
  public:
   MeshTree(const Terrain& terrain, const Scale& scale, const Context& context);
 
-  Search search(Point place, double radius) const;
-  /// Looks at all that may be touched. `first`: the triangle to look at first, or none.
-  void run(Search& search, Index first) const;
+  Search search(Point place, double radius) const { return {scale_, place, radius, moved(place, radius)}; }
+  Survey survey(Point centre, double radius, const ManyPlaces& spread) const {
+    return {scale_, centre, radius, moved(centre, radius), spread};
+  }
+  double inverse_unit() const { return scale_.inverse_unit; }
+  double cell() const { return cell_; }
 
-  Index feature_of_vertex(Index v) const { return v; }
-  Index feature_of_edge(Index e) const { return first_edge_ + e; }
-  Index feature_of_triangle(Index t) const { return first_triangle_ + t; }
-  Index triangle_of_feature(Index feature) const { return feature - first_triangle_; }
-  const TerrainAccess& terrain() const { return t_; }
+  /// Looks at all triangles that may be touched.
+  void run(Search& search) const { visit(search, levels_.size(), 0); }
+  /// Lists all triangles that may be touched over some place of the survey.
+  void list(const Survey& survey, Shortlist& shortlist) const;
+  /// Looks at one triangle.
+  void touch(Search& search, Index triangle) const {
+    if (triangle != search.skip) search.touch(part(triangle), triangle);
+  }
+  Part part(Index triangle) const;
 
  private:
   static constexpr std::size_t arity = 8;
   struct alignas(64) Node {
     float x0[arity], y0[arity], x1[arity], y1[arity], top[arity], level[arity], slope_x[arity], slope_y[arity];
   };
+  /// Triangles, their places relative to one of their corners.
+  struct alignas(64) Leaf {
+    Point origin;
+    float top[arity], z[arity], slope_x[arity], slope_y[arity], x[3][arity], y[3][arity];
+  };
 
   std::array<Point3, 3> corners(std::size_t triangle) const;
+  void build_leaves(const Context& context);
+  void put(const std::array<Point3, 3>& corner, double slack, Leaf& leaf, std::size_t child) const;
+  static void put_nothing(Leaf& leaf, std::size_t child);
   void build_level(std::size_t level, const Context& context);
   void bound_box(std::size_t level, std::size_t first, std::size_t last, Node& node, std::size_t child) const;
-  void choose_owners();
 
-  template <class Found>
-  void add_children(const Search& search, std::size_t level, std::size_t index, Found& found) const;
+  Moved moved(Point place, double radius) const;
+  template <class Query>
+  unsigned bound_children(const Query& query, const Node& node, float* bounds) const;
+  FourTriangles triangles(Point place, const Leaf& leaf, std::size_t first) const;
+  // Level 0 is that of the leaves, level k of levels_[k - 1].
   void visit(Search& search, std::size_t level, std::size_t index) const;
-  void touch_triangle(Search& search, Index triangle) const;
+  void list_node(const Survey& survey, std::size_t level, std::size_t index, Shortlist& shortlist) const;
 
   TerrainAccess t_;
   Scale scale_;
   Index first_edge_, first_triangle_;
-  std::vector<std::vector<Node>> levels_;  // levels_[0]: of triangles; the last one is one node
-  std::vector<std::uint8_t> owned_;        // bits 0-2: edges, 3-5: vertices
+  double cell_;
+  std::vector<Leaf> leaves_;
+  std::vector<std::vector<Node>> levels_;  // levels_[0]: of leaves; the last one is one node
 };
 
 }  // namespace krepl::drop

@@ -16,7 +16,7 @@ using Index = Terrain::Index;
 /// How coordinates become the single precision of the bounds: divided by a power of two near the extent, so that squares
 /// neither overflow nor underflow.
 struct Scale {
-  double extent;  // largest absolute coordinate of the terrain
+  double extent;   // largest absolute coordinate of the terrain
   double tallest;  // largest absolute height
   double inverse_unit;
   explicit Scale(const Terrain& terrain)
@@ -25,66 +25,120 @@ struct Scale {
         inverse_unit(std::ldexp(1.0, -std::ilogb(extent))) {}
 };
 
-/// A cutter over a place: the highest touch found so far, and what is still worth looking at.
-///
-/// Heights of equal value in double precision go to the feature of lowest dimension, then of lowest number, and bounds
-/// are kept only if they fall short of the best height by more than rounding. So the result is a function of the place, not
-/// of the order in which parts are visited.
-class Search {
+/// A triangle with the numbers of its features.
+struct Part {
+  std::array<Point3, 3> corner;  // counter-clockwise from above unless vertical
+  std::array<Index, 3> vertex, edge;  // edge i runs between corners i and (i + 1) % 3
+  Index face;
+  bool vertical;
+};
+
+/// What rounding to single precision may have moved coordinates by, those of blocks and those of triangles.
+struct Moved {
+  double blocks, triangles;
+};
+
+/// A ball over one place or over all places of a rectangle, and how high it rests at least: parts with bounds below that
+/// are out of the question.
+template <class Spread>
+class Query {
  public:
-  /// `moved`: what rounding to single precision may have moved a coordinate by.
-  Search(const Scale& scale, Point place, double radius, double moved)
-      : ball{place, radius, radius * radius}, bounds(radius * scale.inverse_unit), inverse_unit_(scale.inverse_unit) {
-    // Heights in single precision; evaluations in double precision; planes over coordinates that are off by `moved`.
-    blur = float(moved * inverse_unit_);
-    slack_ = float((0x1p-18 * scale.tallest + 0x1p-44 * (radius + scale.extent) + 2 * steepest * moved) * inverse_unit_);
+  Query(const Scale& scale, Point place, double radius, const Moved& moved, const Spread& spread_ = {})
+      : ball{place, radius, radius * radius}, bounds(radius * scale.inverse_unit, moved.blocks * scale.inverse_unit),
+        spread(spread_), inverse_unit_(scale.inverse_unit) {
+    // Heights in single precision, a few operations; evaluations in double precision; planes over coordinates that have moved.
+    const double heights = 0x1p-20 * scale.tallest + 0x1p-44 * (radius + scale.extent);
+    slack_of_blocks_ = float((heights + slack_per_move * moved.blocks) * inverse_unit_);
+    slack_of_triangles_ = float((heights + slack_per_move * moved.triangles) * inverse_unit_);
   }
 
   const Ball ball;
   const BallBound bounds;
-  float blur;                   ///< in the unit of the bounds
-  Index skip = Terrain::none;   ///< a part that has been looked at already
+  const Spread spread;
+
+  /// The ball is known to rest no lower than this.
+  void raise(double height) {
+    const float relative = float((height - ball.radius) * inverse_unit_);
+    least_ = std::max(least_, relative - 0x1p-22f * std::abs(relative));
+  }
+  float threshold_of_blocks() const { return least_ - slack_of_blocks_; }
+  float threshold_of_triangles() const { return least_ - slack_of_triangles_; }
+  /// Stores the bounds of four blocks or triangles and returns which are worth a look, as bits.
+  unsigned worth(const FourBlocks& four, float* store) const { return worth(four, threshold_of_blocks(), store); }
+  unsigned worth(const FourTriangles& four, float* store) const { return worth(four, threshold_of_triangles(), store); }
+
+ private:
+  template <class Four>
+  unsigned worth(const Four& four, float threshold, float* store) const {
+    const Float4 b = bound(bounds, four, spread);
+    b.store(store);
+    return 15u & ~bits(b < Float4(threshold));
+  }
+
+  double inverse_unit_;
+  float least_ = -std::numeric_limits<float>::max();
+  float slack_of_blocks_, slack_of_triangles_;
+};
+
+/// The search for the highest touch over one place.
+///
+/// Heights of equal value in double precision go to the feature of lowest dimension, then of lowest number, and parts are
+/// left out only if their bounds fall short of the best height by more than rounding. So the result is a function of the
+/// place, not of the order in which parts are visited.
+class Search : public Query<OnePlace> {
+ public:
+  using Query::Query;
 
   double height() const { return best_; }
   Index feature() const { return feature_; }
   Terrain::FeatureKind kind() const { return kind_; }
-  /// The part of the hierarchy (cell, triangle) to which the best feature belongs.
+  /// The triangle by which the best feature was found.
   Index part() const { return part_; }
-  /// Bounds below it are out of the question.
-  float threshold() const { return threshold_; }
 
-  /// True if a touch at this height would be the new best one.
-  bool wants(double height, Index feature, Terrain::FeatureKind kind) const {
-    if (height != best_) return height > best_;
-    return height > nothing && (kind != kind_ ? kind < kind_ : feature < feature_);
-  }
-  void take(double height, Index feature, Terrain::FeatureKind kind, Index part) {
+  Index skip = Terrain::none;  ///< a triangle that has been looked at already
+
+  /// Looks at a triangle: its face, or those sides and corners that the ball may touch instead.
+  void touch(const Part& part, Index number);
+
+ private:
+  void offer(double height, Index feature, Terrain::FeatureKind kind, Index part) {
+    if (!(height >= best_) || height == nothing) return;
+    if (height == best_ && (kind != kind_ ? kind > kind_ : feature >= feature_)) return;
     if (height > best_) best_ = height, raise(height);
     feature_ = feature, kind_ = kind, part_ = part;
   }
-  /// The terrain reaches this point, so the result is no lower than a ball that touches it.
-  void expect(Point3 point) {
-    const double x = point.x - ball.place.x, y = point.y - ball.place.y, s = ball.squared - (x * x + y * y);
-    if (s > 0.25 * ball.squared) raise(point.z + std::sqrt(s));
-  }
 
- private:
-  void raise(double height) {
-    const float relative = float((height - ball.radius) * inverse_unit_);
-    threshold_ = std::max(threshold_, relative - 0x1p-22f * std::abs(relative) - slack_);
-  }
-
-  double inverse_unit_;
   double best_ = nothing;
-  float threshold_ = -std::numeric_limits<float>::max();
-  float slack_ = 0;
   Index feature_ = Terrain::none, part_ = Terrain::none;
   Terrain::FeatureKind kind_ = Terrain::FeatureKind::face;
 };
 static_assert(Terrain::FeatureKind::vertex < Terrain::FeatureKind::edge &&
               Terrain::FeatureKind::edge < Terrain::FeatureKind::face);
 
-/// Parts that may hold the highest touch, with their bounds; the most promising first once sorted.
+inline void Search::touch(const Part& p, Index number) {
+  using Kind = Terrain::FeatureKind;
+  FaceTouch face;  // of a vertical triangle: all sides are worth a look
+  if (!p.vertical) face = touch_face(p.corner[0], p.corner[1], p.corner[2], ball);
+  if (face.beyond == 0) return offer(face.height, p.face, Kind::face, number);
+  unsigned corners = 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    if ((face.beyond & (1u << i)) == 0) continue;
+    // From the lower number to the higher, as Terrain::corners() has it.
+    const unsigned next = i == 2 ? 0 : i + 1;
+    const unsigned a = p.vertex[i] < p.vertex[next] ? i : next, b = a ^ i ^ next;
+    const EdgeTouch edge = touch_edge(p.corner[a], p.corner[b], ball);
+    offer(edge.height, p.edge[i], Kind::edge, number);
+    if (edge.ends & 1) corners |= 1u << a;
+    if (edge.ends & 2) corners |= 1u << b;
+  }
+  for (unsigned i = 0; i < 3; ++i)
+    if (corners & (1u << i)) offer(touch_vertex(p.corner[i], ball).height, p.vertex[i], Kind::vertex, number);
+}
+
+/// Places of a rectangle together.
+using Survey = Query<ManyPlaces>;
+
+/// Parts that may hold the highest touch, with their bounds; the most promising first.
 template <std::size_t capacity>
 class Candidates {
  public:
@@ -97,6 +151,7 @@ class Candidates {
     for (; i > 0 && entries_[i - 1].bound < bound; --i) entries_[i] = entries_[i - 1];
     entries_[i] = {bound, column, row};
   }
+  bool empty() const { return count_ == 0; }
   const Entry* begin() const { return entries_.data(); }
   const Entry* end() const { return entries_.data() + count_; }
 

@@ -18,15 +18,16 @@ EdgeTouch touch_edge_quad(Point3 a, Point3 b, const Ball& ball) {
   const quad dx = quad(b.x) - a.x, dy = quad(b.y) - a.y, dz = quad(b.z) - a.z;
   const quad ex = quad(ball.place.x) - a.x, ey = quad(ball.place.y) - a.y;
   const quad flat = dx * dx + dy * dy;
-  if (flat == 0) return {};
+  if (flat == 0) return {nothing, 0, 3};
   const quad cross = dx * ey - dy * ex, foot = (dx * ex + dy * ey) / flat;
   const quad s = quad(ball.radius) * ball.radius - cross * cross / flat;
   if (s < 0) return {};
   const quad length = flat + dz * dz;
   const quad lift = square_root(s / flat / length);
   const quad along = foot + dz * lift;
-  if (!(along > 0 && along < 1)) return {};
-  return {double(a.z + dz * foot + length * lift), double(along)};
+  if (along <= 0) return {nothing, 0, 1};
+  if (along >= 1) return {nothing, 0, 2};
+  return {double(a.z + dz * foot + length * lift), double(along), 0};
 }
 
 FaceTouch touch_face_quad(Point3 a, Point3 b, Point3 c, const Ball& ball) {

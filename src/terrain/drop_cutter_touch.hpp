@@ -32,6 +32,8 @@ struct VertexTouch {
 struct EdgeTouch {
   double height = nothing;
   double along = 0;  // touched point: a + along (b - a), 0 < along < 1
+  /// Ends where the ball touches the edge if not between them: 1 for a, 2 for b.
+  unsigned ends = 0;
 };
 struct FaceTouch {
   double height = nothing;
@@ -63,12 +65,12 @@ inline VertexTouch touch_vertex(Point3 v, const Ball& ball) {
 }
 
 /// [engines, section 3]: the cylinder's height h = a.z + m alpha + sqrt(1 + m^2) sqrt(R^2 - beta^2), without square roots of
-/// the edge's length. An edge that is vertical in double precision touches with its upper end only.
+/// the edge's length. A vertical edge touches with its upper end only.
 inline EdgeTouch touch_edge(Point3 a, Point3 b, const Ball& ball) {
   const double dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
   const double ex = ball.place.x - a.x, ey = ball.place.y - a.y;
   const double flat = dx * dx + dy * dy;
-  if (flat == 0) return {};
+  if (flat == 0) return {nothing, 0, 3};
   const double inverse = 1 / flat;
   const double cross = dx * ey - dy * ex, foot = (dx * ex + dy * ey) * inverse;
   const double s = ball.squared - cross * cross * inverse;
@@ -78,8 +80,9 @@ inline EdgeTouch touch_edge(Point3 a, Point3 b, const Ball& ball) {
   const double length = flat + dz * dz;
   const double lift = std::sqrt(s * inverse / length);
   const double along = foot + dz * lift;
-  if (!(along > 0 && along < 1)) return {};
-  return {a.z + dz * foot + length * lift, along};
+  if (along <= 0) return {nothing, 0, 1};
+  if (along >= 1) return {nothing, 0, 2};
+  return {a.z + dz * foot + length * lift, along, 0};
 }
 
 /// Corners counter-clockwise seen from above, not vertical.

@@ -22,6 +22,7 @@ Envelope::Envelope(const PatchSet& patches, double scale, SurfaceCounters& count
     : patches_(patches),
       tolerance_(0x1p-40 * scale),
       smallest_cell_(0x1p-36 * scale),
+      smallest_stretch_(0x1p-50 * scale),
       noise_(0x1p-49 * scale),
       counters_(counters) {}
 
@@ -65,9 +66,29 @@ bool Envelope::domain_meets(Index i, const Box& box) const {
   if (box.high.x < f.low.x || box.low.x > f.high.x || box.high.y < f.low.y || box.low.y > f.high.y) return false;
   for (const Bound& b : patches_.bounds(i)) {
     const Range r = bound_range(b, box);
-    if (b.negative ? r.low >= 0 : r.high < 0) return false;
+    // Where a patch ends in a wall, what reaches into the box by less than matters is left out: two walls can be tangent.
+    const double slack = !b.rim ? 0 : b.type == Bound::Type::disc ? 2 * patches_.radius() * tolerance_ : tolerance_;
+    if (b.negative ? r.low >= -slack : r.high < slack) return false;
   }
   return true;
+}
+
+/// Where a tangent plane bounds the patch well over a box of the given size: in its middle, but not closer to the rim than that.
+Point Envelope::support_point(Index i, Point mid, double size) const {
+  const Patch& f = patches_[i];
+  if (f.kind == FeatureKind::face) return mid;
+  const double radius = patches_.radius(), most = radius - std::min(size, radius / 2);
+  const double dx = mid.x - f.at.x, dy = mid.y - f.at.y;
+  if (f.kind == FeatureKind::vertex) {
+    const double square = dx * dx + dy * dy;
+    if (square <= most * most) return mid;
+    const double s = most / std::sqrt(square);
+    return {f.at.x + s * dx, f.at.y + s * dy};
+  }
+  const double aside = dy * f.gx - dx * f.gy;
+  if (std::fabs(aside) <= most) return mid;
+  const double shift = (aside > 0 ? most : -most) - aside;
+  return {mid.x - shift * f.gy, mid.y + shift * f.gx};
 }
 
 bool Envelope::domain_covers(Index i, const Box& box) const {
@@ -78,15 +99,88 @@ bool Envelope::domain_covers(Index i, const Box& box) const {
   return true;
 }
 
+/// The one wall at which the patch ends within the box, if it covers the box otherwise: there it is at least as high as its rim.
+const Bound* Envelope::wall_through(Index i, const Box& box) const {
+  const Bound* wall = nullptr;
+  for (const Bound& b : patches_.bounds(i)) {
+    const Range r = bound_range(b, box);
+    if (!(b.negative ? r.high >= 0 : r.low < 0)) continue;
+    if (!b.rim || wall != nullptr) return nullptr;
+    wall = &b;
+  }
+  return wall;
+}
+
+/// True if the patch lies on the inner side of another one's wall within the box, as far as matters.
+bool Envelope::ends_before(Index i, const Bound& wall, const Box& box) const {
+  const Patch& f = patches_[i];
+  const double tolerance = tolerance_ / 4;
+  if (wall.type == Bound::Type::line) {
+    for (const Bound& b : patches_.bounds(i)) {  // its own straight side runs along the wall
+      if (b.type != Bound::Type::line) continue;
+      const double s = (b.negative ? -1 : 1), w = (wall.negative ? -1 : 1);
+      const Point m = box.middle();
+      const double excess = s * b.value(m, 0) - w * wall.value(m, 0);
+      const double spread = std::fabs(s * b.nx - w * wall.nx) * box.half_x() + std::fabs(s * b.ny - w * wall.ny) * box.half_y();
+      if (excess + spread <= tolerance) return true;
+    }
+  }
+  if (wall.type == Bound::Type::disc) {
+    return f.kind == FeatureKind::vertex && std::hypot(f.at.x - wall.at.x, f.at.y - wall.at.y) <= tolerance;
+  }
+  const auto beyond = [&](Point p) {  // of the edge's line, towards the wall
+    const double aside = (p.x - wall.at.x) * wall.nx + (p.y - wall.at.y) * wall.ny;
+    return wall.negative ? aside : -aside;
+  };
+  if (f.kind == FeatureKind::vertex) return beyond(f.at) <= tolerance;
+  if (f.kind == FeatureKind::edge) {
+    return beyond(f.at) <= tolerance && beyond({f.at.x + f.length * f.gx, f.at.y + f.length * f.gy}) <= tolerance;
+  }
+  for (const Point c : patches_.corners(i)) {
+    if (beyond(c) > patches_.radius() + tolerance) return false;
+  }
+  return true;
+}
+
+/// Two edges above each other or in one line, as seen from above: the difference of their heights is linear in the place along
+/// them and in the root that both share, so its least value is at an end.
+bool Envelope::hidden_in_line(Index lower, Index upper, const Box& box) const {
+  const Patch &c = patches_[lower], &k = patches_[upper];
+  if (c.kind != FeatureKind::edge || k.kind != FeatureKind::edge) return false;
+  if (std::fabs(c.gx * k.gy - c.gy * k.gx) > 1e-13) return false;
+  const auto aside = [](const Patch& f, Point p) { return (p.y - f.at.y) * f.gx - (p.x - f.at.x) * f.gy; };
+  const double turn = c.gx * k.gx + c.gy * k.gy > 0 ? 1 : -1;
+  const Point mid = box.middle();
+  const double beta = aside(k, mid);
+  if (std::fabs(beta - turn * aside(c, mid)) > tolerance_ / 4) return false;
+  const std::span<const Bound> sides = patches_.bounds(upper);
+  for (const Bound& b : sides) {
+    const Range r = bound_range(b, box);
+    if (b.type == Bound::Type::cone && (b.negative ? r.high >= 0 : r.low < 0)) return false;
+  }
+  const double spread = std::fabs(k.gx) * box.half_y() + std::fabs(k.gy) * box.half_x(), square = patches_.square_radius();
+  const double near = std::max(0.0, std::fabs(beta) - spread), far = std::fabs(beta) + spread;
+  const double up[2] = {std::sqrt(std::max(0.0, square - far * far)), std::sqrt(std::max(0.0, square - near * near))};
+  for (const Point p : {box.low, Point{box.high.x, box.low.y}, box.high, Point{box.low.x, box.high.y}}) {
+    const double level = rim_height(upper, p) - rim_height(lower, p);
+    for (const double u : up) {
+      if (!(level + (k.q - c.q) * u > noise_)) return false;
+    }
+  }
+  return true;
+}
+
 void Envelope::filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
                       std::vector<Index>& out) const {
   const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
   const int step = box.low.x == box.high.x || box.low.y == box.high.y ? 2 : 1;  // a line has two ends
   const Point mid = box.middle();
   std::array<std::array<double, 4>, 4> body;
+  std::array<const Bound*, 4> wall;  // where the body ends within the box; null: it does not
   int bodies = 0;
   // Where the box is large beside R nothing is hidden below one body.
-  if (box.larger_side() < 2 * patches_.radius()) {
+  const bool small = box.larger_side() < 2 * patches_.radius();
+  if (small) {
     for (const Index c : champions) {
       // A patch over all of the box may hide what sticks out by less than matters. One that is not might be hidden itself, as
       // part of another's body, by what it would hide: then only what is clearly lower.
@@ -96,12 +190,17 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
         body[bodies][i] = patches_.body_height(c, corner[i]) + margin;
         all = all && body[bodies][i] > below_everything;
       }
+      wall[bodies] = nullptr;
+      if (!all && (wall[bodies] = wall_through(c, box)) != nullptr) {
+        for (int i = 0; i < 4; i += step) body[bodies][i] = rim_height(c, corner[i]) - noise_;
+        all = true;
+      }
       if (all) ++bodies;
     }
   }
-  const auto below_one = [&](const double (&t)[4]) {
+  const auto below_one = [&](const double (&t)[4], Index c) {
     for (int k = 0; k < bodies; ++k) {
-      bool all = true;
+      bool all = wall[k] == nullptr || ends_before(c, *wall[k], box);
       for (int i = 0; i < 4; i += step) all = all && body[k][i] > t[i];
       if (all) return true;
     }
@@ -111,6 +210,7 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
   const auto below_two = [&](const double (&t)[4]) {
     for (int k = 0; k < bodies; ++k) {
       for (int l = k + 1; l < bodies; ++l) {
+        if (wall[k] != nullptr || wall[l] != nullptr) continue;
         double low = 0, high = 1;
         for (int i = 0; i < 4; i += step) {
           const double slope = body[k][i] - body[l][i], need = t[i] - body[l][i];
@@ -125,14 +225,15 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
   };
   for (const Index c : candidates) {
     if (!domain_meets(c, box)) continue;
-    if (bodies > 0 && std::find(champions.begin(), champions.end(), c) == champions.end()) {
-      const double h = patches_.extended_height(c, mid);
-      if (h > below_everything) {
-        const Gradient g = patches_.gradient(c, mid);
-        const double hx = g.x * box.half_x(), hy = g.y * box.half_y();
-        const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
-        if (below_one(t) || below_two(t)) continue;
-      }
+    if (small && std::find(champions.begin(), champions.end(), c) == champions.end()) {
+      const Point p = support_point(c, mid, box.larger_side());
+      const Gradient g = patches_.gradient(c, p);
+      const double h = patches_.extended_height(c, p) + g.x * (mid.x - p.x) + g.y * (mid.y - p.y);
+      const double hx = g.x * box.half_x(), hy = g.y * box.half_y();
+      const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
+      bool in_line = false;
+      for (const Index k : champions) in_line = in_line || hidden_in_line(c, k, box);
+      if (in_line || below_one(t, c) || below_two(t)) continue;
     }
     out.push_back(c);
   }
@@ -164,7 +265,7 @@ void Envelope::section(const Line& line, double t0, Index l0, double t1, Index l
   }
   bool others = false;
   for (std::size_t i = begin; i < stack_.size(); ++i) others = others || (stack_[i] != l0 && stack_[i] != l1);
-  const bool tiny = t1 - t0 <= smallest_cell_ || depth > 60;
+  const bool tiny = t1 - t0 <= smallest_stretch_ || depth > 60;
   if (l0 == l1 && (tiny || (!others && l0 != none))) {
     // One label only: its domain may have a notch, but then another label would be left.
     stack_.resize(begin);

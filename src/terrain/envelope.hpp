@@ -80,12 +80,16 @@ class Envelope {
   void section(const Line& line, double t0, Index l0, double t1, Index l1, std::size_t first, int depth);
   bool single_crossing(const Line& line, double t0, Index l0, double t1, Index l1) const;
   double locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& meeting) const;
+  Point support_point(Index patch, Point mid, double size) const;
+  const Bound* wall_through(Index patch, const Box& box) const;
+  bool ends_before(Index patch, const Bound& wall, const Box& box) const;
+  bool hidden_in_line(Index lower, Index upper, const Box& box) const;
   bool domain_covers(Index patch, const Box& box) const;
   bool domain_meets(Index patch, const Box& box) const;
   GradientRange sphere_gradient(Point at, const Box& box, double factor) const;
 
   const PatchSet& patches_;
-  double tolerance_, smallest_cell_, noise_;
+  double tolerance_, smallest_cell_, smallest_stretch_, noise_;
   SurfaceCounters& counters_;
   std::vector<Index> stack_;
   std::vector<Crossing>* out_ = nullptr;

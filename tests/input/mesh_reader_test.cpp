@@ -1,13 +1,17 @@
 // Reading meshes: every format gives the same triangles, without loss of digits; damage is named.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <random>
+#include <thread>
 
 #include "input/mesh_reader.hpp"
 #include "input/terrain_reader.hpp"
+#include "support/environment.hpp"
 #include "support/temporary_file.hpp"
 
 namespace krepl::test {
@@ -58,7 +62,8 @@ void expect_square(const Result<input::TriangleMesh>& mesh) {
   ASSERT_TRUE(mesh.ok()) << mesh.error().text();
   EXPECT_TRUE(mesh->notes.empty());
   std::vector<std::array<Point3, 3>> triangles;
-  for (const auto& t : mesh->triangles) triangles.push_back({mesh->vertices[t[0]], mesh->vertices[t[1]], mesh->vertices[t[2]]});
+  for (const auto& t : mesh->triangles)
+    triangles.push_back({mesh->vertices[t[0]], mesh->vertices[t[1]], mesh->vertices[t[2]]});
   const std::vector<std::array<Point3, 3>> want{{square[0], square[1], square[2]}, {square[0], square[2], square[3]}};
   EXPECT_EQ(triangles, want);
 }
@@ -84,8 +89,10 @@ TEST(MeshReader, Obj) {
 
 TEST(MeshReader, PlyAsText) {
   std::string text =
-      "ply\nformat ascii 1.0\ncomment by hand\nobj_info none\nelement vertex 4\nproperty uchar red\nproperty double x\nproperty double y\n"
-      "property double z\nelement edge 1\nproperty int a\nproperty int b\nelement face 2\nproperty list uchar int vertex_indices\n"
+      "ply\nformat ascii 1.0\ncomment by hand\nobj_info none\nelement vertex 4\nproperty uchar red\nproperty double "
+      "x\nproperty double y\n"
+      "property double z\nelement edge 1\nproperty int a\nproperty int b\nelement face 2\nproperty list uchar int "
+      "vertex_indices\n"
       "property float quality\nend_header\n";
   for (const Point3& p : square) text += "255 " + row(p) + "\n";
   expect_square(read(text + "0 1\n3 0 1 2 nan\n3 0 2 3 1.5\n", MeshFormat::ply));
@@ -94,7 +101,8 @@ TEST(MeshReader, PlyAsText) {
 TEST(MeshReader, PlyBinaryOfBothOrders) {
   for (const bool big : {false, true}) {
     std::string bytes = std::string("ply\r\nformat binary_") + (big ? "big" : "little") +
-                        "_endian 1.0\r\nelement vertex 4\r\nproperty float64 x\r\nproperty float64 y\r\nproperty list uint8 int16 extra\r\nproperty "
+                        "_endian 1.0\r\nelement vertex 4\r\nproperty float64 x\r\nproperty float64 y\r\nproperty list "
+                        "uint8 int16 extra\r\nproperty "
                         "float64 z\r\nelement face 1\r\nproperty list uint16 uint32 vertex_index\r\nend_header\r\n";
     for (const Point3& p : square) {
       append(bytes, p.x, big), append(bytes, p.y, big), append(bytes, std::uint8_t{2});
@@ -110,7 +118,8 @@ TEST(MeshReader, PlyBinaryOfBothOrders) {
 
 TEST(MeshReader, PlyStrips) {
   std::string text =
-      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n"
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement "
+      "tristrips 1\n"
       "property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 2 0\n8 0 1 2 3 -1 2 3 4\n";
   const auto mesh = read(text, MeshFormat::ply);
   ASSERT_TRUE(mesh.ok()) << mesh.error().text();
@@ -125,47 +134,125 @@ TEST(MeshReader, StlAsText) {
     return text + " endloop\n endfacet\n";
   };
   expect_square(read("solid one\n" + facet(0, 1, 2) + facet(0, 2, 3) + "endsolid one\n", MeshFormat::stl));
-  expect_square(read("SOLID\n" + facet(0, 1, 2) + "endsolid\nsolid solid\n" + facet(0, 2, 3) + "endsolid", MeshFormat::stl));
+  expect_square(
+      read("SOLID\n" + facet(0, 1, 2) + "endsolid\nsolid solid\n" + facet(0, 2, 3) + "endsolid", MeshFormat::stl));
   EXPECT_EQ(fault("solid one\n" + facet(0, 1, 2), MeshFormat::stl),
             "ends before its endsolid, line 8; the file seems to be cut off: get it again");
 }
 
 TEST(MeshReader, StlBinary) {
-  const std::string bytes = binary_stl({{0, 0, 0.1f, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 1, 5, 0, 1, 0}}, "solid that is binary");
+  const std::string bytes =
+      binary_stl({{0, 0, 0.1f, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 1, 5, 0, 1, 0}}, "solid that is binary");
   const auto mesh = read(bytes, MeshFormat::stl);
   ASSERT_TRUE(mesh.ok()) << mesh.error().text();
   EXPECT_EQ(mesh->triangles.size(), 2u);
   EXPECT_EQ(mesh->vertices[0], (Point3{0, 0, double(0.1f)}));
   EXPECT_EQ(mesh->vertices[4], (Point3{1, 1, 5}));
-  EXPECT_EQ(fault(bytes.substr(0, 150), MeshFormat::stl), "ends after 1 of 2 triangles; the file seems to be cut off: get it again");
+  EXPECT_EQ(fault(bytes.substr(0, 150), MeshFormat::stl),
+            "ends after 1 of 2 triangles; the file seems to be cut off: get it again");
   EXPECT_EQ(fault(binary_stl({}), MeshFormat::stl), "has no triangles; give a mesh of triangles or polygons");
-  EXPECT_EQ(fault(binary_stl({{0, 0, 0, 1, 0, NAN, 0, 1, 0}}), MeshFormat::stl), "a coordinate is not finite, triangle 0; repair the mesh");
+  EXPECT_EQ(fault(binary_stl({{0, 0, 0, 1, 0, NAN, 0, 1, 0}}), MeshFormat::stl),
+            "a coordinate is not finite, triangle 0; repair the mesh");
 }
 
 TEST(MeshReader, ErrorsNameTheLine) {
   const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  EXPECT_EQ(fault(obj + "f 1 2 4\n", MeshFormat::obj), "a face has a vertex that does not exist, line 4; there are 3 vertices; correct the file");
-  EXPECT_EQ(fault(obj + "f 0 1 2\n", MeshFormat::obj), "a face has corner 0, and vertices are counted from 1, line 4; correct the file");
-  EXPECT_EQ(fault(obj + "f -4 1 2\n", MeshFormat::obj), "a face has a vertex that does not exist, line 4; correct the file");
+  EXPECT_EQ(fault(obj + "f 1 2 4\n", MeshFormat::obj),
+            "a face has a vertex that does not exist, line 4; there are 3 vertices; correct the file");
+  EXPECT_EQ(fault(obj + "f 0 1 2\n", MeshFormat::obj),
+            "a face has corner 0, and vertices are counted from 1, line 4; correct the file");
+  EXPECT_EQ(fault(obj + "f -4 1 2\n", MeshFormat::obj),
+            "a face has a vertex that does not exist, line 4; correct the file");
   EXPECT_EQ(fault(obj, MeshFormat::obj), "has points but no triangles; give a mesh of triangles or polygons");
   EXPECT_EQ(fault("v 0 zero 0\n", MeshFormat::obj), "y 'zero' is not a number, line 1; correct the file");
   EXPECT_EQ(fault("v 0 0\n", MeshFormat::obj), "z is missing, line 1; correct the file");
   EXPECT_EQ(fault("\n\nv 0 nan 0\n", MeshFormat::obj), "y is not finite, line 3; correct the file");
-  EXPECT_EQ(fault("v 0 1e999 0\n", MeshFormat::obj), "y '1e999' is out of the range of numbers, line 1; correct the file");
+  EXPECT_EQ(fault("v 0 1e999 0\n", MeshFormat::obj),
+            "y '1e999' is out of the range of numbers, line 1; correct the file");
   EXPECT_EQ(fault("", MeshFormat::obj), "has no triangles; give a mesh of triangles or polygons");
-  EXPECT_EQ(fault("OFF\n3 1 0\n0 0 0\n1 0 0\n", MeshFormat::off), "ends after 2 of 3 vertices, line 4; the file seems to be cut off: get it again");
-  EXPECT_EQ(fault("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n", MeshFormat::off), "ends after 0 of 1 faces, line 5; the file seems to be cut off: get it again");
-  EXPECT_EQ(fault("4OFF\n", MeshFormat::off), "'4OFF' is not read, its points are not in space, line 1; write it as OFF");
+  EXPECT_EQ(fault("OFF\n3 1 0\n0 0 0\n1 0 0\n", MeshFormat::off),
+            "ends after 2 of 3 vertices, line 4; the file seems to be cut off: get it again");
+  EXPECT_EQ(fault("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n", MeshFormat::off),
+            "ends after 0 of 1 faces, line 5; the file seems to be cut off: get it again");
+  EXPECT_EQ(fault("4OFF\n", MeshFormat::off),
+            "'4OFF' is not read, its points are not in space, line 1; write it as OFF");
   EXPECT_EQ(fault("OFF BINARY\n", MeshFormat::off), "binary OFF is not read, line 1; write it as text");
-  EXPECT_EQ(fault("solid x\n", MeshFormat::off), "'solid' instead of OFF, line 1; give a file in the format of its extension");
+  EXPECT_EQ(fault("solid x\n", MeshFormat::off),
+            "'solid' instead of OFF, line 1; give a file in the format of its extension");
   EXPECT_EQ(fault("OFF\n99999999999 9 0\n", MeshFormat::off).substr(0, 10), "ends after");
-  EXPECT_EQ(fault("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n", MeshFormat::ply),
+  EXPECT_EQ(fault("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
+                  MeshFormat::ply),
             "vertices have no z, header; give x, y and z");
-  EXPECT_EQ(fault("ply\nelement vertex 1\nproperty quaternion x\n", MeshFormat::ply), "type 'quaternion' is unknown, line 3; correct the file");
-  EXPECT_EQ(fault("ply\nformat ascii 1.0\n", MeshFormat::ply), "ends within its header, line 2; the file seems to be cut off: get it again");
-  EXPECT_EQ(fault("OFF\n", MeshFormat::ply), "does not begin with ply, line 1; give a file in the format of its extension");
+  EXPECT_EQ(fault("ply\nelement vertex 1\nproperty quaternion x\n", MeshFormat::ply),
+            "type 'quaternion' is unknown, line 3; correct the file");
+  EXPECT_EQ(fault("ply\nformat ascii 1.0\n", MeshFormat::ply),
+            "ends within its header, line 2; the file seems to be cut off: get it again");
+  EXPECT_EQ(fault("OFF\n", MeshFormat::ply),
+            "does not begin with ply, line 1; give a file in the format of its extension");
   EXPECT_EQ(fault("solid a\nvertex 0 0 0\n", MeshFormat::stl), "'vertex' is out of place, line 2; correct the file");
-  EXPECT_EQ(fault("solid a\nfacet\nvertex 0 0 0\nendfacet\nendsolid\n", MeshFormat::stl), "a facet has not three vertices, line 4; correct the file");
+  EXPECT_EQ(fault("solid a\nfacet\nvertex 0 0 0\nendfacet\nendsolid\n", MeshFormat::stl),
+            "a facet has not three vertices, line 4; correct the file");
+}
+
+TEST(MeshReader, DamagedFilesEndInAMeshOrAnError) {
+  std::string
+      square_off = "OFF\n4 2 5\n",
+      ply =
+          "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\n"
+          "property float y\nproperty float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Point3& p : square) {
+    square_off += row(p) + "\n";
+    for (const double v : {p.x, p.y, p.z}) append(ply, float(v));
+  }
+  square_off += "3 0 1 2\n3 0 2 3\n";
+  for (int f = 0; f < 2; ++f) {
+    append(ply, std::uint8_t{3});
+    for (const std::int32_t v : {0, 1 + f, 2 + f}) append(ply, v);
+  }
+  const std::pair<std::string, MeshFormat> whole[] = {
+      {square_off, MeshFormat::off},
+      {ply, MeshFormat::ply},
+      {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 \\\n2\nf 1//2 2/1 3\nf -4 -3 -2 -1\n", MeshFormat::obj},
+      {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+       "0\nendloop\nendfacet\nendsolid\n",
+       MeshFormat::stl},
+      {binary_stl({{0, 0, 0.1f, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 1, 5, 0, 1, 0}}), MeshFormat::stl}};
+  std::mt19937_64 engine(seed());
+  const auto below = [&](std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(engine); };
+  const std::string signs = "0123456789-+./ \n\\#eEnaif";
+  std::size_t read_anyway = 0;
+  for (int run = 0; run < int(4000 * effort()); ++run) {
+    for (const auto& [text, format] : whole) {
+      std::string damaged = text;
+      for (std::size_t i = 0, n = 1 + below(4); i < n; ++i) {
+        const std::size_t at = below(damaged.size());
+        switch (below(4)) {
+          case 0:
+            damaged[at] = signs[below(signs.size())];
+            break;
+          case 1:
+            damaged[at] = char(below(256));
+            break;
+          case 2:
+            damaged.erase(at, 1 + below(4));
+            break;
+          default:
+            damaged.insert(at, 1, signs[below(signs.size())]);
+        }
+      }
+      const auto mesh = read(damaged, format);
+      if (!mesh) {
+        ASSERT_FALSE(mesh.error().what.empty());
+        continue;
+      }
+      ++read_anyway;
+      for (const auto& t : mesh->triangles)
+        for (const std::uint32_t v : t) ASSERT_LT(v, mesh->vertices.size());
+      for (const Point3& p : mesh->vertices)
+        ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+    }
+  }
+  EXPECT_GT(read_anyway, 0u);
 }
 
 double doubled_area(const std::vector<Point3>& p, const std::array<std::uint32_t, 3>& t) {
@@ -193,17 +280,21 @@ double covered_area(const std::vector<Point>& outline, bool expect_simple = true
 
 TEST(Triangulate, PolygonsAreCoveredOnce) {
   EXPECT_EQ(covered_area({{0, 0}, {4, 0}, {4, 3}, {0, 3}}), 12);
-  EXPECT_EQ(covered_area({{0, 0}, {4, 0}, {1, 1}, {0, 4}}), 4);                                  // a dart: corner 0 sees all
-  EXPECT_EQ(covered_area({{1, 1}, {0, 4}, {0, 0}, {4, 0}}), 4);                                  // the same from its notch
-  EXPECT_EQ(covered_area({{4, 0}, {1, 1}, {0, 4}, {0, 0}}), 4);                                  // and from where a fan would cross it
-  EXPECT_EQ(covered_area({{0, 0}, {2, 0}, {4, 0}, {4, 4}, {2, 4}, {0, 4}}), 16);                 // corners on straight sides
-  EXPECT_EQ(covered_area({{0, 0}, {9, 0}, {9, 5}, {8, 5}, {8, 1}, {5, 1}, {5, 4}, {4, 4}, {4, 1}, {1, 1}, {1, 5}, {0, 5}}), 20);  // a comb
-  EXPECT_EQ(covered_area({{0, 0}, {6, 0}, {6, 6}, {0, 6}, {0, 0}, {2, 2}, {2, 4}, {4, 4}, {4, 2}, {2, 2}}), 32);  // a hole on a bridge
+  EXPECT_EQ(covered_area({{0, 0}, {4, 0}, {1, 1}, {0, 4}}), 4);                   // a dart: corner 0 sees all
+  EXPECT_EQ(covered_area({{1, 1}, {0, 4}, {0, 0}, {4, 0}}), 4);                   // the same from its notch
+  EXPECT_EQ(covered_area({{4, 0}, {1, 1}, {0, 4}, {0, 0}}), 4);                   // and from where a fan would cross it
+  EXPECT_EQ(covered_area({{0, 0}, {2, 0}, {4, 0}, {4, 4}, {2, 4}, {0, 4}}), 16);  // corners on straight sides
+  EXPECT_EQ(
+      covered_area({{0, 0}, {9, 0}, {9, 5}, {8, 5}, {8, 1}, {5, 1}, {5, 4}, {4, 4}, {4, 1}, {1, 1}, {1, 5}, {0, 5}}),
+      20);  // a comb
+  EXPECT_EQ(covered_area({{0, 0}, {6, 0}, {6, 6}, {0, 6}, {0, 0}, {2, 2}, {2, 4}, {4, 4}, {4, 2}, {2, 2}}),
+            32);  // a hole on a bridge
 }
 
 TEST(Triangulate, CrossedPolygonsAreTold) {
   covered_area({{0, 0}, {3, 3}, {3, 0}, {0, 2}}, false);
-  const auto mesh = read("OFF\n7 3 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n1 1 9\n3 1 0\n4 5 0\n5 0 2 1 4 3\n2 0 1\n4 0 1 1 0\n", MeshFormat::off);
+  const auto mesh = read("OFF\n7 3 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n1 1 9\n3 1 0\n4 5 0\n5 0 2 1 4 3\n2 0 1\n4 0 1 1 0\n",
+                         MeshFormat::off);
   ASSERT_TRUE(mesh.ok()) << mesh.error().text();
   EXPECT_EQ(mesh->notes.front(), "note: 2 faces with fewer than three corners left out");
 }
@@ -246,9 +337,35 @@ TEST_F(TerrainFromMesh, HeightsAreScaledAndTheNameDecides) {
   EXPECT_EQ(file->crs_name, "ETRS89 / UTM zone 32N (EPSG:25832)");
 }
 
+TEST_F(TerrainFromMesh, APipeTellsByItsText) {
+  for (const std::string& text :
+       {triangle_, std::string("v 0 0 1\nv 1 0 1\nv 0 1 2\nf 1 2 3\n"),
+        std::string("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -1\n1 2\n2 -1\n")}) {
+    const std::string pipe = directory_ / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    std::thread writer([&] { std::ofstream(pipe) << text; });
+    input::TerrainRequest request;
+    request.path = pipe;
+    const auto file = input::read_terrain(request);
+    writer.join();
+    std::filesystem::remove(pipe);
+    ASSERT_TRUE(file.ok()) << file.error().text();
+    EXPECT_EQ(file->terrain->triangle_count(), 1u);
+  }
+}
+
+TEST_F(TerrainFromMesh, CompressedFiles) {
+  const std::string plain = directory_.write("part.off", triangle_);
+  ASSERT_EQ(std::system(("gzip -k " + plain).c_str()), 0);
+  EXPECT_EQ(fault(plain + ".gz"), "read without error");
+  std::filesystem::resize_file(plain + ".gz", 40);
+  EXPECT_TRUE(fault(plain + ".gz").ends_with("the file seems to be damaged: get it again")) << fault(plain + ".gz");
+}
+
 TEST_F(TerrainFromMesh, TrianglesWithoutAreaAreCounted) {
   input::TerrainRequest request;
-  request.path = directory_.write("part.off", "OFF\n5 4 0\n0 0 1\n1 0 1\n0 1 2\n2 0 1\n0 0 1\n3 0 1 2\n3 0 1 3\n3 1 1 2\n3 2 4 1\n");
+  request.path = directory_.write(
+      "part.off", "OFF\n5 4 0\n0 0 1\n1 0 1\n0 1 2\n2 0 1\n0 0 1\n3 0 1 2\n3 0 1 3\n3 1 1 2\n3 2 4 1\n");
   const auto file = input::read_terrain(request);
   ASSERT_TRUE(file.ok()) << file.error().text();
   const Terrain::Report& report = file->terrain->report();
@@ -263,7 +380,8 @@ TEST_F(TerrainFromMesh, BadFilesAndOptions) {
   EXPECT_EQ(fault(directory_ / "none.stl"), "no such file; check the name");
   EXPECT_EQ(fault(directory_.path().string()), "is a directory; name a file in it");
   EXPECT_EQ(fault(directory_.write("empty.obj", "")), "is empty");
-  EXPECT_EQ(fault(directory_.write("flat.off", "OFF\n3 1 0\n0 0 1\n1 0 1\n2 0 1\n3 0 1 2\n")), "no triangle is left: all 1 have no area");
+  EXPECT_EQ(fault(directory_.write("flat.off", "OFF\n3 1 0\n0 0 1\n1 0 1\n2 0 1\n3 0 1 2\n")),
+            "no triangle is left: all 1 have no area");
   const std::string good = directory_.write("good.off", triangle_);
   input::TerrainRequest request;
   request.split = Terrain::Split::falling;
@@ -273,7 +391,8 @@ TEST_F(TerrainFromMesh, BadFilesAndOptions) {
   request = {}, request.z_scale = 0;
   EXPECT_EQ(fault(good, request), "the factor of the heights is not a finite number other than zero");
   request = {}, request.crs = "EPSG:4326";
-  EXPECT_EQ(fault(good, request), "coordinates are in degrees (WGS 84 (EPSG:4326)), not in a plane; project the mesh first");
+  EXPECT_EQ(fault(good, request),
+            "coordinates are in degrees (WGS 84 (EPSG:4326)), not in a plane; project the mesh first");
 }
 
 }  // namespace

@@ -26,12 +26,15 @@ struct Image {
 void write(const Image& image, const std::string& path, GDALDataType type = GDT_Float64) {
   ogr::initialise();
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
-  const std::unique_ptr<GDALDataset> file(driver->Create(path.c_str(), image.columns, image.rows, image.bands, type, nullptr));
+  const std::unique_ptr<GDALDataset> file(
+      driver->Create(path.c_str(), image.columns, image.rows, image.bands, type, nullptr));
   if (!image.transform.empty()) file->SetGeoTransform(const_cast<double*>(image.transform.data()));
   if (!image.crs.empty()) file->SetSpatialRef(&*ogr::parse_crs(image.crs));
   for (int b = 1; b <= image.bands; ++b) {
     double* values = const_cast<double*>(image.values.data()) + (b - 1) * image.columns * image.rows;
-    ASSERT_EQ(file->GetRasterBand(b)->RasterIO(GF_Write, 0, 0, image.columns, image.rows, values, image.columns, image.rows, GDT_Float64, 0, 0, nullptr), CE_None);
+    ASSERT_EQ(file->GetRasterBand(b)->RasterIO(GF_Write, 0, 0, image.columns, image.rows, values, image.columns,
+                                               image.rows, GDT_Float64, 0, 0, nullptr),
+              CE_None);
     file->GetRasterBand(b)->SetNoDataValue(no_data);
   }
 }
@@ -94,9 +97,9 @@ TEST_F(RasterReader, MissingSamplesAndSplits) {
     EXPECT_EQ(file->terrain->report().missing_samples, 2u);
     return file->terrain->triangle_count();
   };
-  EXPECT_EQ(triangles(std::nullopt), 6u);                // rising: the two corners that lack a sample lose one triangle each
+  EXPECT_EQ(triangles(std::nullopt), 6u);  // rising: the two corners that lack a sample lose one triangle each
   EXPECT_EQ(triangles(Terrain::Split::rising), 6u);
-  EXPECT_EQ(triangles(Terrain::Split::falling), 4u);     // the diagonal starts where there is no sample: both go
+  EXPECT_EQ(triangles(Terrain::Split::falling), 4u);  // the diagonal starts where there is no sample: both go
   EXPECT_EQ(triangles(Terrain::Split::shorter), 6u);
 }
 
@@ -144,18 +147,26 @@ TEST_F(RasterReader, WithoutGeoreference) {
 TEST_F(RasterReader, WhatIsRefused) {
   const std::vector<double> six{1, 2, 3, 4, 5, 6};
   const double inf = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(fault({.values = {1, 2, 3, 4, 5, -inf}}), "a height is infinite, column 2, row 1 (125 205); correct it, or mark it as no data: gdal_translate -a_nodata");
+  EXPECT_EQ(
+      fault({.values = {1, 2, 3, 4, 5, -inf}}),
+      "a height is infinite, column 2, row 1 (125 205); correct it, or mark it as no data: gdal_translate -a_nodata");
   EXPECT_EQ(fault({.values = std::vector<double>(6, no_data)}), "all samples of the grid are without data");
-  EXPECT_EQ(fault({.values = {no_data, 1, no_data, 1, no_data, 1}}), "no triangle is left: no three neighbouring samples of a cell have data");
+  EXPECT_EQ(fault({.values = {no_data, 1, no_data, 1, no_data, 1}}),
+            "no triangle is left: no three neighbouring samples of a cell have data");
   EXPECT_EQ(fault({.columns = 6, .rows = 1, .values = six}), "a grid needs 2 x 2 samples or more, 6 x 1");
-  EXPECT_EQ(fault({.values = six, .transform = {0, 10, 1, 0, 1, -10}}), "the raster is rotated or sheared: its rows do not follow x; resample it with gdalwarp");
+  EXPECT_EQ(fault({.values = six, .transform = {0, 10, 1, 0, 1, -10}}),
+            "the raster is rotated or sheared: its rows do not follow x; resample it with gdalwarp");
   EXPECT_EQ(fault({.values = six, .transform = {10, 0.1, 0, 50, 0, -0.1}, .crs = "EPSG:4326"}),
-            "coordinates are in degrees (WGS 84 (EPSG:4326)), not in a plane; project them with --to-crs EPSG:n, or with --to-crs auto");
+            "coordinates are in degrees (WGS 84 (EPSG:4326)), not in a plane; project them with --to-crs EPSG:n, or "
+            "with --to-crs auto");
   input::TerrainRequest request;
   request.to_crs = "auto";
-  EXPECT_EQ(fault({.values = six}, request), "--to-crs needs to know the coordinate system of the data, and the file does not say; name it with --crs EPSG:n");
+  EXPECT_EQ(
+      fault({.values = six}, request),
+      "--to-crs needs to know the coordinate system of the data, and the file does not say; name it with --crs EPSG:n");
   request.to_crs = "EPSG:4258";
-  EXPECT_EQ(fault({.values = six, .crs = "EPSG:25832"}, request), "--to-crs EPSG:4258 is not a plane coordinate system; name a projected one, or auto");
+  EXPECT_EQ(fault({.values = six, .crs = "EPSG:25832"}, request),
+            "--to-crs EPSG:4258 is not a plane coordinate system; name a projected one, or auto");
 }
 
 TEST_F(RasterReader, BadFiles) {
@@ -165,8 +176,10 @@ TEST_F(RasterReader, BadFiles) {
   EXPECT_TRUE(fault_of(directory_.write("words.tif", "no raster at all\n")).ends_with(remedy));
   const std::string header = "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
   EXPECT_EQ(fault_of(directory_.write("good.asc", header + "1 2 3\n4 5 6\n")), "read without error");
-  EXPECT_EQ(fault_of(directory_.write("short.asc", header + "1 2 3\n4 5\n")), "ends after 5 of 6 samples; the file seems to be cut off: get it again");
-  EXPECT_EQ(fault_of(directory_.write("rows.asc", header + "1 2 3\n")), "ends after 3 of 6 samples; the file seems to be cut off: get it again");
+  EXPECT_EQ(fault_of(directory_.write("short.asc", header + "1 2 3\n4 5\n")),
+            "ends after 5 of 6 samples; the file seems to be cut off: get it again");
+  EXPECT_EQ(fault_of(directory_.write("rows.asc", header + "1 2 3\n")),
+            "ends after 3 of 6 samples; the file seems to be cut off: get it again");
   EXPECT_EQ(fault_of(directory_.write("nan.asc", header + "NODATA_value -1\n 4 nan 3\n4 5 6")), "read without error");
   write({.columns = 300, .rows = 300, .values = std::vector<double>(90000, 1)}, directory_ / "cut.tif");
   std::filesystem::resize_file(directory_ / "cut.tif", 300000);
@@ -184,9 +197,11 @@ TEST_F(RasterReader, DegreesAreResampledOnRequest) {
   ASSERT_TRUE(file.ok()) << file.error().text();
   EXPECT_EQ(file->crs_name, "WGS 84 / UTM zone 32N (EPSG:32632)");
   ASSERT_EQ(file->notes.size(), 1u);
-  EXPECT_EQ(file->notes[0].substr(0, 76), "note: resampled (bilinear) to WGS 84 / UTM zone 32N (EPSG:32632), cells 880.");
+  EXPECT_EQ(file->notes[0].substr(0, 76),
+            "note: resampled (bilinear) to WGS 84 / UTM zone 32N (EPSG:32632), cells 880.");
   const Terrain& t = *file->terrain;
-  const std::unique_ptr<OGRCoordinateTransformation> back(OGRCreateCoordinateTransformation(&*ogr::parse_crs("EPSG:32632"), &*ogr::parse_crs("EPSG:4326")));
+  const std::unique_ptr<OGRCoordinateTransformation> back(
+      OGRCreateCoordinateTransformation(&*ogr::parse_crs("EPSG:32632"), &*ogr::parse_crs("EPSG:4326")));
   std::size_t checked = 0;
   for (std::size_t s = 0; s < t.grid().columns * t.grid().rows; ++s) {
     Point3 p = sample(t, s % t.grid().columns, s / t.grid().columns);
@@ -200,8 +215,35 @@ TEST_F(RasterReader, DegreesAreResampledOnRequest) {
   EXPECT_GT(checked, 800u);
 }
 
+TEST_F(RasterReader, NothingIsResampledToItsOwnSystem) {
+  input::TerrainRequest request;
+  request.to_crs = "EPSG:25832";
+  auto file = read({.values = {1, 2, 3, 4, 5, 6}, .crs = "EPSG:25832"}, request);
+  ASSERT_TRUE(file.ok()) << file.error().text();
+  EXPECT_TRUE(file->notes.empty());
+  EXPECT_EQ(sample(*file->terrain, 2, 1), (Point3{125, 215, 3}));
+  // But a turned one is: a plane stays a plane.
+  Image turned{.columns = 30, .rows = 30, .values = {}, .transform = {5e5, 6, 8, 5e6, 8, -6}, .crs = "EPSG:25832"};
+  for (int r = 0; r < 30; ++r)
+    for (int c = 0; c < 30; ++c)
+      turned.values.push_back(2 * (6 * (c + 0.5) + 8 * (r + 0.5)) + 3 * (8 * (c + 0.5) - 6 * (r + 0.5)));
+  file = read(turned, request);
+  ASSERT_TRUE(file.ok()) << file.error().text();
+  const Terrain& t = *file->terrain;
+  EXPECT_GT(t.triangle_count(), 800u);
+  for (std::size_t s = 0; s < t.grid().columns * t.grid().rows; ++s) {
+    const Point3 p = sample(t, s % t.grid().columns, s / t.grid().columns);
+    if (std::isnan(p.z)) continue;
+    ASSERT_NEAR(p.z, 2 * (p.x - 5e5) + 3 * (p.y - 5e6), 1e-6);
+  }
+}
+
 TEST_F(RasterReader, HolesStayHolesWhenResampled) {
-  Image image{.columns = 20, .rows = 20, .values = std::vector<double>(400, 7), .transform = {9, 0.01, 0, 50, 0, -0.01}, .crs = "EPSG:4326"};
+  Image image{.columns = 20,
+              .rows = 20,
+              .values = std::vector<double>(400, 7),
+              .transform = {9, 0.01, 0, 50, 0, -0.01},
+              .crs = "EPSG:4326"};
   for (int r = 5; r < 12; ++r)
     for (int c = 6; c < 14; ++c) image.values[std::size_t(20 * r + c)] = no_data;
   input::TerrainRequest request;
@@ -214,7 +256,8 @@ TEST_F(RasterReader, HolesStayHolesWhenResampled) {
 }
 
 TEST_F(RasterReader, UndeclaredDegreesAreNoted) {
-  const std::string path = directory_.write("degrees.asc", "ncols 2\nnrows 2\nxllcorner -84.4\nyllcorner 36.7\ncellsize 0.0008333\n100 400\n200 300\n");
+  const std::string path = directory_.write(
+      "degrees.asc", "ncols 2\nnrows 2\nxllcorner -84.4\nyllcorner 36.7\ncellsize 0.0008333\n100 400\n200 300\n");
   input::TerrainRequest request;
   request.path = path;
   const auto file = input::read_terrain(request);

@@ -21,7 +21,9 @@ int exact_sign(Lattice a, Lattice b, Lattice c) {
   return d > 0 ? 1 : d < 0 ? -1 : 0;
 }
 
-Point scaled(Lattice p, int exponent) { return {std::scalbn(double(p.x), exponent), std::scalbn(double(p.y), exponent)}; }
+Point scaled(Lattice p, int exponent) {
+  return {std::scalbn(double(p.x), exponent), std::scalbn(double(p.y), exponent)};
+}
 
 void expect_sign(Lattice a, Lattice b, Lattice c) {
   const int want = exact_sign(a, b, c);
@@ -36,12 +38,15 @@ void expect_sign(Lattice a, Lattice b, Lattice c) {
 
 TEST(Orientation, NearlyCollinear) {
   std::mt19937_64 engine(seed());
-  const auto integer = [&](long long low, long long high) { return std::uniform_int_distribution<long long>(low, high)(engine); };
+  const auto integer = [&](long long low, long long high) {
+    return std::uniform_int_distribution<long long>(low, high)(engine);
+  };
   const int cases = int(20000 * effort());
   int zeros = 0;
   for (int i = 0; i < cases; ++i) {
     const long long reach = 1LL << integer(1, 50);
-    const Lattice a{integer(-reach, reach), integer(-reach, reach)}, step{integer(-reach / 8, reach / 8), integer(-reach / 8, reach / 8)};
+    const Lattice a{integer(-reach, reach), integer(-reach, reach)},
+        step{integer(-reach / 8, reach / 8), integer(-reach / 8, reach / 8)};
     const long long m = integer(-7, 7), n = integer(-7, 7);
     const Lattice b{a.x + m * step.x, a.y + m * step.y};
     const Lattice c{a.x + n * step.x + integer(-1, 1), a.y + n * step.y + integer(-1, 1)};

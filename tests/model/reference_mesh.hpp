@@ -44,7 +44,8 @@ inline ExpectedWindow expected_window(const ReferenceMesh& mesh, Point low, Poin
     double min_x = 1e300, max_x = -1e300, min_y = 1e300, max_y = -1e300;
     for (const Index v : face.vertex) {
       const Point3 p = mesh.vertex.at(v);
-      min_x = std::min(min_x, p.x), max_x = std::max(max_x, p.x), min_y = std::min(min_y, p.y), max_y = std::max(max_y, p.y);
+      min_x = std::min(min_x, p.x), max_x = std::max(max_x, p.x), min_y = std::min(min_y, p.y),
+      max_y = std::max(max_y, p.y);
     }
     if (min_x > high.x || max_x < low.x || min_y > high.y || max_y < low.y) continue;
     core_faces.insert(number);
@@ -52,7 +53,8 @@ inline ExpectedWindow expected_window(const ReferenceMesh& mesh, Point low, Poin
   }
   for (const auto& [number, face] : mesh.face) {
     const bool core = core_faces.contains(number);
-    if (std::none_of(face.vertex.begin(), face.vertex.end(), [&](Index v) { return core_vertices.contains(v); })) continue;
+    if (std::none_of(face.vertex.begin(), face.vertex.end(), [&](Index v) { return core_vertices.contains(v); }))
+      continue;
     e.face[number] = core;
     for (int i = 0; i < 3; ++i) {
       e.vertex[face.vertex[std::size_t(i)]] = core_vertices.contains(face.vertex[std::size_t(i)]);
@@ -95,13 +97,16 @@ inline void expect_window(const TerrainWindow& window, const ReferenceMesh& mesh
     const ReferenceMesh::Face& want = mesh.face.at(face.feature);
     ASSERT_EQ(face.vertical, want.vertical);
     for (std::size_t i = 0; i < 3; ++i) {
-      ASSERT_EQ(window.vertices()[face.vertex[i]].feature, want.vertex[i]) << "corner " << i << " of face " << face.feature;
+      ASSERT_EQ(window.vertices()[face.vertex[i]].feature, want.vertex[i])
+          << "corner " << i << " of face " << face.feature;
       ASSERT_EQ(window.edges()[face.edge[i]].feature, mesh.edge.at(ReferenceMesh::side(want, int(i))));
       faces_of_vertex[face.vertex[i]].push_back(f);
       faces_of_edge[face.edge[i]].push_back(f);
     }
   }
-  const auto same = [](std::span<const Index> row, const std::vector<Index>& want) { return std::equal(row.begin(), row.end(), want.begin(), want.end()); };
+  const auto same = [](std::span<const Index> row, const std::vector<Index>& want) {
+    return std::equal(row.begin(), row.end(), want.begin(), want.end());
+  };
   for (Index v = 0; v < window.vertices().size(); ++v) {
     ASSERT_TRUE(same(window.faces_of_vertex(v), faces_of_vertex[v]));
     ASSERT_TRUE(same(window.edges_of_vertex(v), edges_of_vertex[v]));

@@ -82,7 +82,7 @@ GridCase random_grid(Random& random) {
 
 /// A rectangle near the box, often with sides exactly on coordinates that occur.
 std::pair<Point, Point> random_rectangle(Random& random, const ReferenceMesh& mesh, const Terrain& terrain) {
-  const auto coordinate = [&](double low, double high, double Point3::* axis) {
+  const auto coordinate = [&](double low, double high, double Point3::*axis) {
     if (random.chance(0.4)) {
       auto v = mesh.vertex.begin();
       std::advance(v, random.integer(0, int(mesh.vertex.size()) - 1));
@@ -91,8 +91,10 @@ std::pair<Point, Point> random_rectangle(Random& random, const ReferenceMesh& me
     const double margin = 0.3 * (high - low) + 0.1;
     return random.real(low - margin, high + margin);
   };
-  double x0 = coordinate(terrain.lowest().x, terrain.highest().x, &Point3::x), x1 = coordinate(terrain.lowest().x, terrain.highest().x, &Point3::x);
-  double y0 = coordinate(terrain.lowest().y, terrain.highest().y, &Point3::y), y1 = coordinate(terrain.lowest().y, terrain.highest().y, &Point3::y);
+  double x0 = coordinate(terrain.lowest().x, terrain.highest().x, &Point3::x),
+         x1 = coordinate(terrain.lowest().x, terrain.highest().x, &Point3::x);
+  double y0 = coordinate(terrain.lowest().y, terrain.highest().y, &Point3::y),
+         y1 = coordinate(terrain.lowest().y, terrain.highest().y, &Point3::y);
   if (random.chance(0.1)) x1 = x0, y1 = y0;
   return {{std::min(x0, x1), std::min(y0, y1)}, {std::max(x0, x1), std::max(y0, y1)}};
 }
@@ -115,7 +117,8 @@ TEST(TerrainWindow, GridsAgainstTheDefinition) {
     for (int i = 0; i < 12; ++i) {
       const auto [low, high] = random_rectangle(random, mesh, *terrain);
       window.fill(*terrain, low, high);
-      ASSERT_NO_FATAL_FAILURE(expect_window(window, mesh, low, high)) << low.x << ' ' << low.y << ' ' << high.x << ' ' << high.y;
+      ASSERT_NO_FATAL_FAILURE(expect_window(window, mesh, low, high))
+          << low.x << ' ' << low.y << ' ' << high.x << ' ' << high.y;
     }
   }
 }
@@ -131,7 +134,8 @@ Soup random_soup(Random& random) {
   const int extent = random.integer(1, 7), height = random.integer(0, 3);
   const int count = random.integer(1, random.chance(0.1) ? 400 : 40);
   for (int i = 0, n = random.integer(3, 3 * count + 3); i < n; ++i) {
-    soup.vertices.push_back({double(random.integer(0, extent)), double(random.integer(0, extent)), double(random.integer(0, height))});
+    soup.vertices.push_back(
+        {double(random.integer(0, extent)), double(random.integer(0, extent)), double(random.integer(0, height))});
   }
   for (int i = 0; i < count; ++i) {
     std::array<Index, 3> t{};
@@ -144,7 +148,7 @@ Soup random_soup(Random& random) {
 int sign(double v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
 
 /// Twice the area in the plane of two coordinates; exact for small integers.
-double area(const std::array<Point3, 3>& p, double Point3::* u, double Point3::* v) {
+double area(const std::array<Point3, 3>& p, double Point3::*u, double Point3::*v) {
   return (p[1].*u - p[0].*u) * (p[2].*v - p[0].*v) - (p[1].*v - p[0].*v) * (p[2].*u - p[0].*u);
 }
 
@@ -156,7 +160,8 @@ struct SoupReference {
 using Places = std::map<std::array<double, 3>, Index>;
 
 /// The triangles that must be left, named by sorted vertex numbers; counts what must be dropped.
-std::map<std::array<Index, 3>, ReferenceMesh::Face> kept_triangles(const Soup& soup, const Places& number, Terrain::Report& report) {
+std::map<std::array<Index, 3>, ReferenceMesh::Face> kept_triangles(const Soup& soup, const Places& number,
+                                                                   Terrain::Report& report) {
   std::map<std::array<Index, 3>, ReferenceMesh::Face> kept;
   std::set<std::array<std::array<double, 3>, 3>> seen;
   for (const auto& t : soup.triangles) {
@@ -175,8 +180,10 @@ std::map<std::array<Index, 3>, ReferenceMesh::Face> kept_triangles(const Soup& s
     std::array<Index, 3> name = face.vertex;
     std::sort(name.begin(), name.end());
     std::sort(places.begin(), places.end());
-    if (!seen.insert(places).second) ++report.repeated_triangles;
-    else report.vertical_triangles += turn == 0;
+    if (!seen.insert(places).second)
+      ++report.repeated_triangles;
+    else
+      report.vertical_triangles += turn == 0;
     kept[name] = face;
   }
   return kept;
@@ -249,7 +256,8 @@ TEST(TerrainWindow, SoupsAgainstTheDefinition) {
     for (int i = 0; i < 12; ++i) {
       const auto [low, high] = random_rectangle(random, reference.mesh, *terrain);
       window.fill(*terrain, low, high);
-      ASSERT_NO_FATAL_FAILURE(expect_window(window, reference.mesh, low, high)) << low.x << ' ' << low.y << ' ' << high.x << ' ' << high.y;
+      ASSERT_NO_FATAL_FAILURE(expect_window(window, reference.mesh, low, high))
+          << low.x << ' ' << low.y << ' ' << high.x << ' ' << high.y;
     }
   }
 }

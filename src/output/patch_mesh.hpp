@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "krepl/point.hpp"
+#include "output/surface_patch.hpp"
+
+namespace krepl::output {
+
+/// Triangles of one face of a surface, improved and refined until they are within a tolerance of its patch. The face's
+/// border is kept as it is.
+class PatchMesh {
+ public:
+  using Index = std::uint32_t;
+  using Triangle = std::array<Index, 3>;
+
+  PatchMesh(const SurfacePatch& patch, std::vector<Point3> points, const std::vector<Triangle>& triangles);
+
+  /// Flips inner sides for shorter ones, and halves those that are too far below the patch.
+  void refine(double max_error);
+
+  const std::vector<Point3>& points() const { return points_; }
+  std::size_t triangle_count() const { return corner_.size() / 3; }
+  Triangle triangle(std::size_t t) const { return {corner_[3 * t], corner_[3 * t + 1], corner_[3 * t + 2]}; }
+  double deviation() const;
+  /// Triangles that do not run counter-clockwise seen from above.
+  std::size_t folded() const;
+
+ private:
+  static constexpr Index none = ~Index{0};
+  // Side i of triangle t is 3t + i; it starts at corner i.
+  static Index next(Index side) { return side % 3 == 2 ? side - 2 : side + 1; }
+  static Index previous(Index side) { return side % 3 == 0 ? side + 2 : side - 1; }
+  int turn(Index a, Index b, Index c) const;
+  double area(Index a, Index b, Index c) const;  // twice, seen from above
+  double cost(Index a, Index b) const;
+
+  void connect();
+  void pair(Index side, Index other);
+  bool should_flip(Index side) const;
+  void flip(Index side);
+  void settle();
+  bool is_too_long(Index side, double limit) const;
+  void halve(Index side);
+
+  const SurfacePatch& patch_;
+  std::vector<Point3> points_;
+  std::vector<Index> corner_, opposite_;
+  std::vector<Index> doubtful_;  // sides that may have to be flipped
+};
+
+}  // namespace krepl::output

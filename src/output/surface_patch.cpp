@@ -1,0 +1,75 @@
+#include "output/surface_patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace krepl::output {
+
+namespace {
+
+using Kind = Terrain::FeatureKind;
+
+Point3 minus(Point3 a, Point3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+double dot(Point3 a, Point3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Point3 cross(Point3 a, Point3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+Point3 unit(Point3 v) {
+  const double length = std::hypot(v.x, v.y, v.z);
+  return {v.x / length, v.y / length, v.z / length};
+}
+
+}  // namespace
+
+SurfacePatch::SurfacePatch(const Terrain& terrain, Terrain::Index feature, double radius)
+    : kind_(terrain.feature_kind(feature)), radius_(radius) {
+  const Terrain::Corners corners = terrain.corners(feature);
+  at_ = corners.point[0];
+  if (kind_ == Kind::edge) direction_ = unit(minus(corners.point[1], at_));
+  if (kind_ == Kind::face) {
+    direction_ = unit(cross(minus(corners.point[1], at_), minus(corners.point[2], at_)));
+    if (direction_.z < 0) direction_ = {-direction_.x, -direction_.y, -direction_.z};
+  }
+}
+
+double SurfacePatch::height(double x, double y) const {
+  const double dx = x - at_.x, dy = y - at_.y;
+  if (kind_ == Kind::face) return at_.z + (radius_ - direction_.x * dx - direction_.y * dy) / direction_.z;
+  if (kind_ == Kind::vertex) return at_.z + std::sqrt(std::max(0.0, radius_ * radius_ - dx * dx - dy * dy));
+  const double flat = std::hypot(direction_.x, direction_.y);
+  const double along = (direction_.x * dx + direction_.y * dy) / flat, aside = (direction_.x * dy - direction_.y * dx) / flat;
+  return at_.z + (along * direction_.z + std::sqrt(std::max(0.0, radius_ * radius_ - aside * aside))) / flat;
+}
+
+Point3 SurfacePatch::normal(Point3 p) const {
+  if (kind_ == Kind::face) return direction_;
+  Point3 away = minus(p, at_);
+  if (kind_ == Kind::edge) {
+    const double along = dot(away, direction_);
+    away = {away.x - along * direction_.x, away.y - along * direction_.y, away.z - along * direction_.z};
+  }
+  return dot(away, away) > 0 ? unit(away) : Point3{0, 0, 1};
+}
+
+double SurfacePatch::curved_square(Point3 a, Point3 b) const {
+  if (kind_ == Kind::face) return 0;
+  const Point3 d = minus(b, a);
+  const Point3 curved = kind_ == Kind::vertex ? d : cross(d, direction_);
+  return dot(curved, curved);
+}
+
+double SurfacePatch::sagitta(double curved_square) const {
+  const double quarter = std::min(curved_square / 4, radius_ * radius_);
+  return quarter / (radius_ + std::sqrt(radius_ * radius_ - quarter));
+}
+
+double SurfacePatch::deviation(Point3 a, Point3 b, Point3 c) const {
+  double square[] = {curved_square(a, b), curved_square(b, c), curved_square(c, a)};
+  std::sort(square, square + 3);
+  // Of a cylinder, and of a sphere under an obtuse triangle, the farthest place is the middle of the longest side; else the
+  // centre of the circumscribed circle.
+  if (kind_ != Kind::vertex || square[0] + square[1] <= square[2]) return sagitta(square[2]);
+  const Point3 normal = cross(minus(b, a), minus(c, a));
+  const double circumradius_square = square[0] * square[1] / (4 * dot(normal, normal)) * square[2];
+  return sagitta(4 * circumradius_square);
+}
+
+}  // namespace krepl::output

@@ -1,0 +1,133 @@
+// Rasters, tile by tile. Where places are close to each other, a few of them share one walk through the hierarchy.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kernel/parallel.hpp"
+#include "terrain/drop_cutter_hierarchy.hpp"
+
+namespace krepl {
+namespace {
+
+using drop::Search;
+
+constexpr std::size_t tile_side = 32;  // places; the work of one block
+constexpr std::size_t most_side = 8;   // places that share a walk
+
+/// Places [column, column + columns) x [row, row + rows) of a raster.
+struct Patch {
+  std::size_t column, row, columns, rows;
+};
+
+/// How many places to take together so that their list of parts stays short: where the ball moves by delta, the gap below
+/// it changes by delta^2 / 2R, which should be a fraction of what the terrain rises and falls within a cell.
+std::size_t together(double step, double radius, double cell) {
+  const double reach = 2 * 0.17 * std::sqrt(radius * cell);
+  return step == 0 ? most_side : std::size_t(std::min(double(most_side), 1 + reach / std::abs(step)));
+}
+
+}  // namespace
+
+/// The work on one tile of a raster.
+template <class Tree>
+class DropCutter::TileWork {
+ public:
+  TileWork(const Hierarchy& hierarchy, const Tree& tree, const Raster& raster, double radius, std::span<Contact> contacts)
+      : h_(hierarchy), tree_(tree), raster_(raster), radius_(radius), contacts_(contacts) {}
+
+  /// Patches in a serpentine, so that each is next to the one before.
+  void run(const Patch& tile, std::size_t side_x, std::size_t side_y) {
+    const std::size_t across = (tile.columns + side_x - 1) / side_x, up = (tile.rows + side_y - 1) / side_y;
+    for (std::size_t k = 0; k < across * up; ++k) {
+      const std::size_t j = k / across, i = j % 2 == 0 ? k % across : across - 1 - k % across;
+      const std::size_t column = i * side_x, row = j * side_y;
+      const Patch patch{tile.column + column, tile.row + row, std::min(side_x, tile.columns - column), std::min(side_y, tile.rows - row)};
+      if (patch.columns * patch.rows < 3 || !run_together(patch)) run_one_by_one(patch);
+    }
+  }
+
+ private:
+  template <class Visit>
+  void for_each(const Patch& patch, const Visit& visit) const {
+    for (std::size_t k = 0; k < patch.columns * patch.rows; ++k) {
+      const std::size_t j = k / patch.columns, i = j % 2 == 0 ? k % patch.columns : patch.columns - 1 - k % patch.columns;
+      const std::size_t column = patch.column + i, row = patch.row + j;
+      visit(raster_.place(column, row), contacts_[row * raster_.columns + column]);
+    }
+  }
+
+  void run_one_by_one(const Patch& patch) {
+    for_each(patch, [&](Point place, Contact& contact) { contact = h_.touch(tree_, place, radius_, trace_); });
+  }
+
+  /// False if it would not pay, or is not possible.
+  bool run_together(const Patch& patch) {
+    if (trace_.triangle == Terrain::none) return false;
+    const Point a = raster_.place(patch.column, patch.row);
+    const Point b = raster_.place(patch.column + patch.columns - 1, patch.row + patch.rows - 1);
+    const Point centre{a.x / 2 + b.x / 2, a.y / 2 + b.y / 2};
+    if (!std::isfinite(centre.x) || !std::isfinite(centre.y)) return false;
+    // Half sides, with room for the rounding of places.
+    const double half_x = std::abs(b.x - centre.x) + 0x1p-50 * (std::abs(a.x) + std::abs(b.x));
+    const double half_y = std::abs(b.y - centre.y) + 0x1p-50 * (std::abs(a.y) + std::abs(b.y));
+    drop::Shortlist list;
+    if (!survey(centre, half_x, half_y, list)) return false;
+    for_each(patch, [&](Point place, Contact& contact) {
+      Search search = h_.begin(tree_, place, radius_, trace_);
+      list.run(tree_, search, float((place.x - centre.x) * tree_.inverse_unit()), float((place.y - centre.y) * tree_.inverse_unit()));
+      contact = h_.end(tree_, search, trace_);
+    });
+    return true;
+  }
+
+  /// A point that the ball about touches over the centre gives a lower bound of all heights over the rectangle: those of
+  /// balls that touch this point, which form a sphere, a concave surface, so it lies above the least of its corners even after
+  /// its tangent plane at the centre is taken off.
+  bool survey(Point centre, double half_x, double half_y, drop::Shortlist& list) const {
+    const Search first = h_.begin(tree_, centre, radius_, trace_);
+    if (first.feature() == Terrain::none) return false;
+    Hierarchy::Trace ignored;
+    const Point3 p = h_.end(tree_, first, ignored).point;
+    const double ex = p.x - centre.x, ey = p.y - centre.y, squared = radius_ * radius_;
+    const auto sphere = [&](double x, double y) { return squared - (ex - x) * (ex - x) - (ey - y) * (ey - y); };
+    const double least = std::min({sphere(half_x, half_y), sphere(-half_x, half_y), sphere(half_x, -half_y), sphere(-half_x, -half_y)});
+    if (least < 0.25 * squared) return false;
+    const double rho = std::sqrt(sphere(0, 0)), slope_x = ex / rho, slope_y = ey / rho;
+    const auto relative = [&](double x, double y) { return p.z + std::sqrt(sphere(x, y)) - slope_x * x - slope_y * y; };
+    const double unit = tree_.inverse_unit();
+    drop::Survey survey = tree_.survey(centre, radius_, {drop::up(half_x * unit), drop::up(half_y * unit), float(slope_x), float(slope_y)});
+    survey.raise(std::min({relative(half_x, half_y), relative(-half_x, half_y), relative(half_x, -half_y), relative(-half_x, -half_y)}));
+    tree_.list(survey, list);
+    return !list.overflowed();
+  }
+
+  const Hierarchy& h_;
+  const Tree& tree_;
+  const Raster& raster_;
+  double radius_;
+  std::span<Contact> contacts_;
+  Hierarchy::Trace trace_;
+};
+
+Status DropCutter::at(const Raster& raster, std::span<Contact> contacts, const Context& context) const {
+  const bool fits = raster.columns == 0 || raster.rows <= contacts.size() / raster.columns;
+  if (!fits || contacts.size() != raster.columns * raster.rows) {
+    return Error{ErrorCode::usage, "there is not one contact for each place of the raster", "", ""};
+  }
+  const double cell = hierarchy_->cell();
+  const std::size_t side_x = together(raster.step_x, radius_, cell), side_y = together(raster.step_y, radius_, cell);
+  const std::size_t across = (raster.columns + tile_side - 1) / tile_side, up = (raster.rows + tile_side - 1) / tile_side;
+  kernel::Progress progress(context, contacts.size());
+  const bool done = kernel::parallel_blocks(context, across * up, 1, [&](std::size_t k, std::size_t) {
+    const std::size_t column = k % across * tile_side, row = k / across * tile_side;
+    const Patch tile{column, row, std::min(tile_side, raster.columns - column), std::min(tile_side, raster.rows - row)};
+    hierarchy_->with_tree([&]<class Tree>(const Tree& tree) {
+      TileWork<Tree>(*hierarchy_, tree, raster, radius_, contacts).run(tile, side_x, side_y);
+    });
+    progress.add(tile.columns * tile.rows);
+  });
+  if (!done) return Error{ErrorCode::cancelled, "cancelled", "", ""};
+  return std::monostate{};
+}
+
+}  // namespace krepl
