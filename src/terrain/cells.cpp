@@ -192,16 +192,19 @@ bool Cells::settle_arc(const Box& box, bool smallest) {
   return true;
 }
 
+/// True if the label is the upper one of a wall.
+bool Cells::is_wall_of(const Turn& turn, Index label) const {
+  if (turn.meeting != Meeting::rim || label == none || (turn.before != label && turn.after != label)) return false;
+  const Index other = turn.before == label ? turn.after : turn.before;
+  return other == none || envelope_.clamped_height(label, turn.at) > envelope_.clamped_height(other, turn.at);
+}
+
 /// True if the curves of both turns are sides of one patch, which lies between them.
 bool Cells::sides_of_one_patch(const Turn& s, const Turn& t, Index& patch) const {
   if (s.meeting == Meeting::valley || t.meeting == Meeting::valley) return false;
   for (const Index l : {s.before, s.after}) {
     if (l == none || (l != t.before && l != t.after)) continue;
-    const auto own = [&](const Turn& turn) {  // a seam is a side of both patches, a rim one of the upper patch only
-      const Index other = turn.before == l ? turn.after : turn.before;
-      return turn.meeting == Meeting::seam || other == none ||
-             envelope_.clamped_height(l, turn.at) > envelope_.clamped_height(other, turn.at);
-    };
+    const auto own = [&](const Turn& turn) { return turn.meeting == Meeting::seam || is_wall_of(turn, l); };
     if (own(s) && own(t)) {
       patch = l;
       return true;
@@ -300,7 +303,10 @@ void Cells::add_vertex(Point at) {
   const Index v = Index(vertices_.size());
   double z = below_everything;
   for (const Turn& t : turns_) {
-    if (t.before != none) z = std::max(z, envelope_.clamped_height(t.before, at));
+    if (t.after == none) continue;
+    bool wall = false;  // there its height falls like a square root, the wall's own does not
+    for (const Turn& other : turns_) wall = wall || is_wall_of(other, t.after);
+    z = std::max(z, wall ? envelope_.rim_height(t.after, at) : envelope_.clamped_height(t.after, at));
   }
   vertices_.push_back({{at.x, at.y, z}, Index(arms_.size()), Index(turns_.size())});
   for (const Turn& t : turns_) {

@@ -95,6 +95,8 @@ class Cells {
   bool settle_star(const Box& box, bool smallest);
   std::optional<Point> star_point(const Box& box) const;
   std::optional<Point> common_corner(const Box& box) const;
+  bool all_reach(Point p) const;
+  bool is_wall_of(const Turn& turn, Index label) const;
   bool has_corner(Index patch, Point p) const;
   bool curve_is_simple(const Turn& turn, const Box& box) const;
   bool sides_of_one_patch(const Turn& s, const Turn& t, Index& patch) const;

@@ -191,13 +191,27 @@ Float4 bound(const BallBound& ball, const FourBlocks& p, const Spread& spread) {
                       });
 }
 
-/// Moves a point that is right of the line from a to b onto it, roughly.
-inline void move_left(Float4 ax, Float4 ay, Float4 bx, Float4 by, Float4& ex, Float4& ey) {
-  const Float4 dx = bx - ax, dy = by - ay;
-  const Float4 right = max(dy * (ex - ax) - dx * (ey - ay), Float4(0.f));
-  const Float4 step = right * rough_inverse(max(dx * dx + dy * dy, Float4(std::numeric_limits<float>::min())));
-  ex = ex - dy * step, ey = ey + dx * step;
-}
+/// The nearest point of a triangle, roughly; counter-clockwise.
+class Nearest {
+ public:
+  Nearest(Float4 x, Float4 y) : x_(x), y_(y), best_x_(x), best_y_(y) {}
+  void side(Float4 ax, Float4 ay, Float4 bx, Float4 by) {
+    const Float4 dx = bx - ax, dy = by - ay, px = x_ - ax, py = y_ - ay;
+    const Float4 squared = max(dx * dx + dy * dy, Float4(std::numeric_limits<float>::min()));
+    const Float4 along = min(max((dx * px + dy * py) * rough_inverse(squared), Float4(0.f)), Float4(1.f));
+    const Float4 foot_x = along * dx, foot_y = along * dy;
+    const Float4 off = (px - foot_x) * (px - foot_x) + (py - foot_y) * (py - foot_y);
+    const Float4 beyond = dx * py < dy * px;
+    const Float4 nearer = beyond & (off < distance_);
+    distance_ = select(nearer, off, distance_);
+    best_x_ = select(nearer, ax + foot_x, best_x_), best_y_ = select(nearer, ay + foot_y, best_y_);
+  }
+  Float4 x() const { return best_x_; }
+  Float4 y() const { return best_y_; }
+
+ private:
+  Float4 x_, y_, best_x_, best_y_, distance_ = float_infinity;
+};
 
 template <class Spread>
 Float4 bound(const BallBound& ball, const FourTriangles& p, const Spread& spread) {
@@ -206,10 +220,11 @@ Float4 bound(const BallBound& ball, const FourTriangles& p, const Spread& spread
   const Float4 y0 = min(min(p.ay, p.by), p.cy), y1 = max(max(p.ay, p.by), p.cy);
   Float4 ex, ey;
   touch_plane(ball, p.slope_x, p.slope_y, ex, ey);
-  ex = min(max(ex, x0), x1), ey = min(max(ey, y0), y1);
-  move_left(p.ax, p.ay, p.bx, p.by, ex, ey);
-  move_left(p.bx, p.by, p.cx, p.cy, ex, ey);
-  move_left(p.cx, p.cy, p.ax, p.ay, ex, ey);
+  Nearest nearest(ex, ey);
+  nearest.side(p.ax, p.ay, p.bx, p.by);
+  nearest.side(p.bx, p.by, p.cx, p.cy);
+  nearest.side(p.cx, p.cy, p.ax, p.ay);
+  ex = nearest.x(), ey = nearest.y();
   const Float4 plane = p.z + p.slope_x * (ex - p.ax) + p.slope_y * (ey - p.ay);
   const Float4 far_x = max(x0, zero - x1), far_y = max(y0, zero - y1);
   return lesser_bound(ball, spread, p.top, far_x, far_y, ex, ey, plane, p.slope_x, p.slope_y, [&](Float4 gx, Float4 gy) {

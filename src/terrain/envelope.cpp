@@ -184,7 +184,7 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
     for (const Index c : champions) {
       // A patch over all of the box may hide what sticks out by less than matters. One that is not might be hidden itself, as
       // part of another's body, by what it would hide: then only what is clearly lower.
-      const double margin = domain_covers(c, box) ? tolerance_ / 4 : -noise_;
+      const double margin = domain_covers(c, box) ? noise_ : -noise_;
       bool all = true;
       for (int i = 0; i < 4; i += step) {
         body[bodies][i] = patches_.body_height(c, corner[i]) + margin;

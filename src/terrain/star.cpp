@@ -22,6 +22,20 @@ bool Cells::has_corner(Index patch, Point p) const {
   return false;
 }
 
+/// True if every patch among the labels has p in its domain, or on its border as far as numbers tell.
+bool Cells::all_reach(Point p) const {
+  const PatchSet& patches = envelope_.patches();
+  for (const Turn& t : turns_) {
+    if (t.after == none || has_corner(t.after, p)) continue;
+    for (const Bound& b : patches.bounds(t.after)) {
+      const Gradient g = envelope_.bound_gradient(b, p);
+      const double value = b.value(p, patches.square_radius()), slack = 4 * envelope_.tolerance() * (1 + std::hypot(g.x, g.y));
+      if (b.negative ? value > slack : value < -slack) return false;
+    }
+  }
+  return true;
+}
+
 /// The one corner in the box of a patch two of whose sides are among the turns, or that two patches among the labels have.
 std::optional<Point> Cells::common_corner(const Box& box) const {
   std::optional<Point> found;
@@ -78,9 +92,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
     for (const Turn& t : turns_) {
       if (t.meeting != Meeting::rim) continue;
       for (const Index l : {condition[i].a, condition[i].b}) {
-        const Index other = t.before == l ? t.after : t.before;
-        if (l == none || (t.before != l && t.after != l)) continue;
-        if (other != none && envelope_.clamped_height(l, t.at) < envelope_.clamped_height(other, t.at)) continue;
+        if (!is_wall_of(t, l)) continue;
         condition[i] = {nullptr, condition[i].a == l ? condition[i].b : condition[i].a, l, true};
       }
     }
@@ -99,6 +111,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
 
   // A corner that two labels share, or two sides of one, is known beforehand; near the rim the curves there are tangent.
   if (const std::optional<Point> corner = common_corner(box)) {
+    if (!all_reach(*corner)) return std::nullopt;
     for (std::size_t k = 0; k < n; ++k) {
       if (condition[k].bound != nullptr || (has_corner(condition[k].a, *corner) && has_corner(condition[k].b, *corner))) continue;
       const Gradient g = gradient(condition[k], *corner);
@@ -139,6 +152,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
   if (!converged) return std::nullopt;
   if (!(p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y)) return std::nullopt;
 
+  if (!all_reach(p)) return std::nullopt;
   const double tolerance = envelope_.tolerance();
   for (std::size_t i = 0; i < n; ++i) {
     const double residual = std::fabs(value(condition[i], p));
