@@ -2,7 +2,7 @@
 
 _krepl() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  local verbs="buffer profile verify view" verb= word
+  local verbs="buffer profile terrain verify view" verb= word
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case " $verbs " in *" $word "*) verb=$word; break ;; esac
   done
@@ -12,8 +12,15 @@ _krepl() {
     return
   fi
   case $previous in
-    --format) mapfile -t COMPREPLY < <(compgen -W "gpkg fgb wkt wkb geojson shp svg dxf" -- "$current"); return ;;
-    --engine) mapfile -t COMPREPLY < <(compgen -W "auto intervals" -- "$current"); return ;;
+    --format)
+      local formats="gpkg fgb wkt wkb geojson shp svg dxf"
+      [[ $verb == terrain ]] && formats="json gpkg tif stl ply glb png"
+      mapfile -t COMPREPLY < <(compgen -W "$formats" -- "$current"); return ;;
+    --engine)
+      local engines="auto intervals"
+      [[ $verb == terrain ]] && engines="auto"
+      mapfile -t COMPREPLY < <(compgen -W "$engines" -- "$current"); return ;;
+    --split) mapfile -t COMPREPLY < <(compgen -W "rising falling shorter" -- "$current"); return ;;
     --to-crs) mapfile -t COMPREPLY < <(compgen -W "auto EPSG:" -- "$current"); return ;;
     --crs) mapfile -t COMPREPLY < <(compgen -W "EPSG:" -- "$current"); return ;;
     --layer)  # the layers of the input, which is the first word after the verb that is a file
@@ -23,7 +30,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --where | --max-error | --threads | --samples) return ;;
+    --radius | --where | --max-error | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points) return ;;
   esac
   if [[ $current == -* ]]; then
     # The program itself knows its options, so that the two cannot disagree.

@@ -81,10 +81,11 @@ void print(Session& session, const verify::ProfileReport& report) {
 }
 
 void print(Session& session, const verify::SurfaceReport& report) {
-  session.summary(fmt::format("surface of radius {}: {} triangles in, {} faces, {} edges, {} vertices, {} components, {} holes out",
-                              report.radius, report.triangles, report.faces, report.edges, report.vertices,
-                              report.components, report.holes));
-  session.summary(fmt::format("area of the projection {:.12g}, S {:.6g}, tolerance {:.2g}", report.area, report.scale, report.tolerance));
+  session.summary(fmt::format(
+      "surface of radius {}: {} triangles in, {} faces, {} edges, {} vertices, {} components, {} holes out",
+      report.radius, report.triangles, report.faces, report.edges, report.vertices, report.components, report.holes));
+  session.summary(fmt::format("area of the projection {:.12g}, S {:.6g}, tolerance {:.2g}", report.area, report.scale,
+                              report.tolerance));
   print(session, report.checks);
 }
 
@@ -149,8 +150,8 @@ int verify_profile(const VerifyOptions& options, Session& session) {
   if (!radius) return session.fail("", radius.error());
   auto pieces = input::read_profile(options.result);
   if (!pieces) return session.fail(options.result, pieces.error());
-  auto terrain =
-      input::read_terrain_line({options.input.path, options.input.layer, options.input.where}, session.context("reading"));
+  auto terrain = input::read_terrain_line({options.input.path, options.input.layer, options.input.where},
+                                          session.context("reading"));
   session.finish_progress();
   if (!terrain) return session.fail(options.input.path, terrain.error());
 
@@ -209,7 +210,8 @@ int run_verify(const VerifyOptions& options, Session& session) {
 void add_verify_verb(CLI::App& program, Session& session) {
   auto options = std::make_shared<VerifyOptions>();
   CLI::App* verb = program.add_subcommand("verify", "Re-check a result against its input by independent brute force");
-  verb->add_option("RESULT", options->result, "Zone (vector file), profile (.csv) or subdivision (.json) to check")->required();
+  verb->add_option("RESULT", options->result, "Zone (vector file), profile (.csv) or subdivision (.json) to check")
+      ->required();
   verb->add_option("--against", options->input.path, "The input that the result was made from")
       ->required()
       ->type_name("IN");

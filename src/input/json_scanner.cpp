@@ -68,7 +68,8 @@ bool JsonScanner::index(std::uint32_t& value) {
   const auto [stop, status] = std::from_chars(buffer_.data() + at_, buffer_.data() + end_, value);
   if (status != std::errc{}) return fail("an index that is too large");
   at_ = std::size_t(stop - buffer_.data());
-  if (at_ < end_ && (buffer_[at_] == '.' || buffer_[at_] == 'e' || buffer_[at_] == 'E')) return fail("an index expected");
+  if (at_ < end_ && (buffer_[at_] == '.' || buffer_[at_] == 'e' || buffer_[at_] == 'E'))
+    return fail("an index expected");
   return true;
 }
 

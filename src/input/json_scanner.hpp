@@ -8,8 +8,9 @@
 
 namespace krepl::input {
 
-/// Reads JSON from a file piece by piece, in the order it stands there, so that a file of any size needs a fixed buffer.
-/// Each function takes one thing and returns false if something else stands there; the first such place is kept.
+/// Reads JSON from a file piece by piece, in the order it stands there, so that a file of any size needs a fixed
+/// buffer. Each function takes one thing and returns false if something else stands there; the first such place is
+/// kept.
 class JsonScanner {
  public:
   /// The file stays the caller's.

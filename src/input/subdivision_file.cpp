@@ -31,7 +31,8 @@ class SubdivisionReader {
   bool value_of(const std::string& key) {
     seen_ += key + " ";
     std::string name;
-    if (key == "krepl") return json_.string(name) && (name == "subdivision" || json_.fail("\"krepl\" is not \"subdivision\""));
+    if (key == "krepl")
+      return json_.string(name) && (name == "subdivision" || json_.fail("\"krepl\" is not \"subdivision\""));
     if (key == "version") {
       File::Index version = 0;
       return json_.index(version) && (version == 1 || json_.fail("this version of the format is not known"));
@@ -97,7 +98,8 @@ class SubdivisionReader {
       return json_.skip_value();
     });
     if (!read) return false;
-    if (kind < 0 || at.size() != std::size_t(kind) + 1) return json_.fail("a feature without kind or with a wrong number of points");
+    if (kind < 0 || at.size() != std::size_t(kind) + 1)
+      return json_.fail("a feature without kind or with a wrong number of points");
     File::Feature feature{{}, kind + 1};
     std::copy(at.begin(), at.end(), feature.at.begin());
     file_.features.push_back(feature);
@@ -160,7 +162,8 @@ class SubdivisionReader {
       const std::string word = std::string(key) + " ";
       const std::size_t first = (" " + seen_).find(" " + word);
       if (first == std::string::npos) return json_.fail(std::string("no \"") + key + "\"");
-      if ((" " + seen_).find(" " + word, first + 1) != std::string::npos) return json_.fail(std::string("\"") + key + "\" twice");
+      if ((" " + seen_).find(" " + word, first + 1) != std::string::npos)
+        return json_.fail(std::string("\"") + key + "\" twice");
     }
     return true;
   }

@@ -53,11 +53,11 @@ struct SubdivisionFile {
   }
 };
 
-/// Reads a JSON subdivision as krepl writes it, in any order of its keys; unknown keys are passed over. Memory: the numbers as
-/// doubles and indices, less than the file has bytes.
+/// Reads a JSON subdivision as krepl writes it, in any order of its keys; unknown keys are passed over. Memory: the
+/// numbers as doubles and indices, less than the file has bytes.
 ///
-/// Errors name item, line and byte: not JSON, ends early, a key missing, a value of the wrong kind, an edge with fewer than
-/// three points, a number that no double holds; another "krepl" or "version" than subdivision 1; cancelled.
+/// Errors name item, line and byte: not JSON, ends early, a key missing, a value of the wrong kind, an edge with fewer
+/// than three points, a number that no double holds; another "krepl" or "version" than subdivision 1; cancelled.
 Result<SubdivisionFile> read_subdivision(const std::string& path, const Context& context = {});
 
 /// Whether a file begins like a subdivision and not like GeoJSON.

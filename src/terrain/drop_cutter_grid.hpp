@@ -52,11 +52,6 @@ class GridPyramid {
     std::size_t first_column, last_column, first_row, last_row;
   };
 
-  /// Corners of a triangle as Terrain::corners() has them: 0 the cell's sample, 1 in +x, 2 in +y, 3 in both.
-  static const std::array<unsigned, 3>& corners_of(bool falling, bool upper) {
-    static constexpr std::array<unsigned, 3> corners[2][2] = {{{0, 1, 3}, {0, 3, 2}}, {{0, 1, 2}, {1, 3, 2}}};
-    return corners[falling][upper];
-  }
   TerrainAccess::Cell cell(std::size_t column, std::size_t row) const {
     if (complete_ && grid_.split == Terrain::Split::rising) [[likely]] return {false, true, true};
     return t_.cell(column, row);
@@ -84,13 +79,17 @@ class GridPyramid {
                  Shortlist& shortlist) const;
 
   // Cells, four a row, from first_row to last_row (8 rows at most).
-  template <class Query>
-  unsigned bound_cells(const Query& query, std::size_t column, std::size_t first_row, std::size_t last_row, float* bounds) const;
+  struct FourCells;
+  FourBlocks blocks(const FourCells& cells) const;
+  FourTriangles triangles(const FourCells& cells, bool upper) const;
+  Float4 falling(std::size_t column, std::size_t row) const;
   void load(std::size_t column, std::size_t row, Float4& here, Float4& east) const;
+  template <class Query, class Each>
+  void for_each_triangle(const Query& query, std::size_t column, std::size_t first_row, std::size_t last_row,
+                         const Each& each) const;
   void visit_cells(Search& search, std::size_t column, std::size_t first_row, std::size_t last_row) const;
   void list_cells(const Survey& survey, std::size_t column, std::size_t first_row, std::size_t last_row,
                   Shortlist& shortlist) const;
-  FourTriangles triangles(Point place, const Index* cells, std::size_t count) const;
 
   TerrainAccess t_;
   const double* heights_;

@@ -35,7 +35,7 @@ class DropCutter::Hierarchy {
   };
   /// A triangle that the ball may well touch at a place near the trace's, or none.
   Index guess(const drop::GridPyramid& grid, const Trace& trace, Point place) const {
-    if (trace.triangle == Terrain::none) return Terrain::none;
+    if (trace.triangle == Terrain::none) return grid.triangle_at(place);
     if (terrain_.feature_kind(trace.contact.feature) != Terrain::FeatureKind::face) return trace.triangle;
     // The touched point of a plane moves along with the ball.
     const Point3 p = trace.contact.point;

@@ -197,7 +197,8 @@ void MeshTree::list_node(const Survey& survey, std::size_t level, std::size_t in
   if (level == 0) {
     for (unsigned k = 0; k < arity; k += 4) {
       const FourTriangles four = triangles(survey.ball.place, leaves_[index], k);
-      shortlist.add(four, survey.worth(four, bounds), [&](unsigned lane) { return Index(index * arity + k + lane); });
+      const unsigned worth = survey.worth(four, bounds);
+      shortlist.add(four, worth, bounds, [&](unsigned lane) { return Index(index * arity + k + lane); });
     }
     return;
   }

@@ -12,9 +12,9 @@ class Shortlist {
 
   bool overflowed() const { return overflowed_; }
 
-  /// The triangles at the lanes of a mask, with their numbers.
+  /// The triangles at the lanes of a mask, with their bounds and numbers.
   template <class Number>
-  void add(const FourTriangles& four, unsigned lanes, const Number& number) {
+  void add(const FourTriangles& four, unsigned lanes, const float*, const Number& number) {
     if (lanes == 0) return;
     if (count_ + 4 > capacity) {
       overflowed_ = true;

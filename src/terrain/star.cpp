@@ -16,6 +16,7 @@ struct Condition {
 }  // namespace
 
 bool Cells::has_corner(Index patch, Point p) const {
+  if (patch == none) return false;
   for (const Point c : envelope_.patches().corners(patch)) {
     if (std::hypot(c.x - p.x, c.y - p.y) <= envelope_.tolerance()) return true;
   }
@@ -113,10 +114,15 @@ std::optional<Point> Cells::star_point(const Box& box) const {
   if (const std::optional<Point> corner = common_corner(box)) {
     if (!all_reach(*corner)) return std::nullopt;
     for (std::size_t k = 0; k < n; ++k) {
-      if (condition[k].bound != nullptr || (has_corner(condition[k].a, *corner) && has_corner(condition[k].b, *corner))) continue;
-      const Gradient g = gradient(condition[k], *corner);
-      const double scale = 1 + std::hypot(g.x, g.y);
-      if (!(std::fabs(value(condition[k], *corner)) <= envelope_.tolerance() * scale)) return std::nullopt;
+      const Condition& c = condition[k];
+      if (c.bound != nullptr && c.bound->type != Bound::Type::cone) {
+        const double scale = c.bound->type == Bound::Type::disc ? 2 * radius : 1;
+        if (std::fabs(c.bound->value(*corner, square)) > 4 * envelope_.tolerance() * scale) return std::nullopt;
+        continue;
+      }
+      if (has_corner(turns_[k].before, *corner) && has_corner(turns_[k].after, *corner)) continue;
+      const Gradient g = gradient(c, *corner);
+      if (!(std::fabs(value(c, *corner)) <= 4 * envelope_.tolerance() * (1 + std::hypot(g.x, g.y)))) return std::nullopt;
     }
     return corner;
   }

@@ -44,8 +44,8 @@ class BoxHierarchy {
   bool empty() const { return nodes_.empty(); }
   const Box3& box() const { return nodes_[0].box; }
 
-  /// Visits items in boxes with key(box) <= limit(), a bound that may fall meanwhile; of two boxes the one with the smaller
-  /// key first. An infinite key leaves a box out.
+  /// Visits items in boxes with key(box) <= limit(), a bound that may fall meanwhile; of two boxes the one with the
+  /// smaller key first. An infinite key leaves a box out.
   template <class Key, class Limit, class Visit>
   void search(Key&& key, Limit&& limit, Visit&& visit) const {
     if (nodes_.empty()) return;
@@ -58,7 +58,8 @@ class BoxHierarchy {
   void for_each_near(const Box3& box, Visit&& visit) const {
     search(
         [&](const Box3& b) {
-          const bool meets = b.low[0] <= box.high[0] && box.low[0] <= b.high[0] && b.low[1] <= box.high[1] && box.low[1] <= b.high[1];
+          const bool meets =
+              b.low[0] <= box.high[0] && box.low[0] <= b.high[0] && b.low[1] <= box.high[1] && box.low[1] <= b.high[1];
           return meets ? 0.0 : std::numeric_limits<double>::infinity();
         },
         [] { return 0.0; }, visit);

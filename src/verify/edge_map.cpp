@@ -46,7 +46,9 @@ void EdgeMap::locate(double x, double y, std::vector<Index>& faces, Index withou
   double top = infinity;
   const auto key = [&](const Box3& b) { return x < b.low[0] || x > b.high[0] || y > b.high[1] ? infinity : b.low[1]; };
   const auto visit = [&](Index e) {
-    if (without != SurfaceCase::none && surface_.component[surface_.file.half_edges[surface_.forward[e]].origin] == without) return;
+    if (without != SurfaceCase::none &&
+        surface_.component[surface_.file.half_edges[surface_.forward[e]].origin] == without)
+      return;
     const double sag = surface_.sag[e];
     Space<double> a = surface_.point(surface_.file.edges[e].first);
     bool near = false;
@@ -64,7 +66,8 @@ void EdgeMap::locate(double x, double y, std::vector<Index>& faces, Index withou
     }
     if (near) faces.push_back(surface_.left_face(e)), faces.push_back(surface_.right_face(e));
   };
-  tree_.search(key, [&] { return top; }, visit);
+  tree_.search(
+      key, [&] { return top; }, visit);
   for (const Hit& hit : hits)
     if (hit.low <= top) faces.push_back(hit.below);
   if (hits.empty()) faces.push_back(0);

@@ -12,7 +12,8 @@ bool before(Point3 a, Point3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x,
 
 bool exists(const Terrain& terrain, Terrain::Index feature) {
   if (!terrain.is_grid()) return true;
-  const std::size_t sample = feature / 6, column = sample % terrain.grid().columns, row = sample / terrain.grid().columns;
+  const std::size_t sample = feature / 6, column = sample % terrain.grid().columns,
+                    row = sample / terrain.grid().columns;
   return column + 1 < terrain.grid().columns && row + 1 < terrain.grid().rows;
 }
 
@@ -73,11 +74,13 @@ double conditioning(const Space<double> (&p)[3], double x, double y, double radi
     const Space<double> a = p[k], b = p[(k + 1) % 3], d = b - a;
     const double flat = d.x * d.x + d.y * d.y;
     const double dx = x - a.x, dy = y - a.y, rim = radius * radius - dx * dx - dy * dy;
-    if (rim > -1e-9 * radius * radius) worst = std::max(worst, radius / std::sqrt(std::max(rim, 1e-24 * radius * radius)));
+    if (rim > -1e-9 * radius * radius)
+      worst = std::max(worst, radius / std::sqrt(std::max(rim, 1e-24 * radius * radius)));
     if (!(flat > 0)) continue;
     const double across = (d.x * dy - d.y * dx), under = radius * radius - across * across / flat;
     if (under > -1e-9 * radius * radius) {
-      worst = std::max(worst, radius / std::sqrt(std::max(under, 1e-24 * radius * radius)) * std::sqrt(1 + d.z * d.z / flat));
+      worst = std::max(worst,
+                       radius / std::sqrt(std::max(under, 1e-24 * radius * radius)) * std::sqrt(1 + d.z * d.z / flat));
     }
   }
   return worst;
@@ -103,7 +106,8 @@ Space<T> nearest_on_triangle(Space<T> a, Space<T> b, Space<T> c) {
   const T nn = square(n);
   if (nn > 0) {
     const Space<T> p = (dot(a, n) / nn) * n;
-    const bool inside = dot(cross(b - a, p - a), n) >= 0 && dot(cross(c - b, p - b), n) >= 0 && dot(cross(a - c, p - c), n) >= 0;
+    const bool inside =
+        dot(cross(b - a, p - a), n) >= 0 && dot(cross(c - b, p - b), n) >= 0 && dot(cross(a - c, p - c), n) >= 0;
     if (inside) return p;
   }
   Space<T> best = nearest_on_segment(zero, a, b);
@@ -158,7 +162,8 @@ Solid::Solid(const Terrain& terrain) : origin_(terrain.origin()) {
     triangles_.push_back(key_of({corners[t], 3}));
     for (const Point3& q : corners[t]) {
       boxes[t].add(q.x, q.y, q.z);
-      for (const double c : {q.x + origin_.x, q.y + origin_.y, q.z + origin_.z}) largest = std::max(largest, std::abs(c));
+      for (const double c : {q.x + origin_.x, q.y + origin_.y, q.z + origin_.z})
+        largest = std::max(largest, std::abs(c));
     }
   }
   resolution_ = std::nextafter(largest, HUGE_VAL) - largest;
@@ -174,7 +179,8 @@ double Solid::half_extent() const {
 FeatureKey Solid::key_of(const Shape& shape) const {
   FeatureKey key{none, none, none};
   for (int k = 0; k < shape.count; ++k) {
-    const Point3 p{shape.at[std::size_t(k)].x + 0.0, shape.at[std::size_t(k)].y + 0.0, shape.at[std::size_t(k)].z + 0.0};
+    const Point3 p{shape.at[std::size_t(k)].x + 0.0, shape.at[std::size_t(k)].y + 0.0,
+                   shape.at[std::size_t(k)].z + 0.0};
     const auto at = std::lower_bound(vertices_.begin(), vertices_.end(), p, before);
     if (at == vertices_.end() || before(p, *at)) return {none, none, none};
     key[std::size_t(k)] = std::uint32_t(at - vertices_.begin());
@@ -197,22 +203,27 @@ void Solid::lower(double x, double y, double radius, double tie, std::vector<Tou
   double best = -std::numeric_limits<double>::infinity();
   const auto key = [&](const Box3& b) {
     const double under = radius * radius - b.square_distance(x, y);
-    return under < -1e-12 * radius * radius ? std::numeric_limits<double>::infinity() : -(b.high[2] + std::sqrt(std::max(under, 0.0)));
+    return under < -1e-12 * radius * radius ? std::numeric_limits<double>::infinity()
+                                            : -(b.high[2] + std::sqrt(std::max(under, 0.0)));
   };
-  tree_.search(key, [&] { return margin - best; }, [&](std::uint32_t t) {
-    const Space<double> p[3] = {corner(t, 0), corner(t, 1), corner(t, 2)};
-    Candidate<double> rough = touch_triangle<double>(p, x, y, radius);
-    const bool hard = conditioning(p, x, y, radius) > 1e3;
-    if (!hard && !(rough.height >= best - margin)) return;
-    const Candidate<long double> c = touch_carefully(p, x, y, radius);
-    if (!(c.height > -HUGE_VALL && c.height >= best - margin)) return;
-    best = std::max(best, double(c.height));
-    const auto& v = triangles_[t];
-    const auto first = std::size_t(c.first), next = (first + 1) % 3;
-    FeatureKey feature = c.count == 3 ? v : c.count == 1 ? FeatureKey{v[first], none, none} : FeatureKey{v[first], v[next], none};
-    std::sort(feature.begin(), feature.end());
-    touches.push_back({feature, c.height});
-  });
+  tree_.search(
+      key, [&] { return margin - best; },
+      [&](std::uint32_t t) {
+        const Space<double> p[3] = {corner(t, 0), corner(t, 1), corner(t, 2)};
+        Candidate<double> rough = touch_triangle<double>(p, x, y, radius);
+        const bool hard = conditioning(p, x, y, radius) > 1e3;
+        if (!hard && !(rough.height >= best - margin)) return;
+        const Candidate<long double> c = touch_carefully(p, x, y, radius);
+        if (!(c.height > -HUGE_VALL && c.height >= best - margin)) return;
+        best = std::max(best, double(c.height));
+        const auto& v = triangles_[t];
+        const auto first = std::size_t(c.first), next = (first + 1) % 3;
+        FeatureKey feature = c.count == 3   ? v
+                             : c.count == 1 ? FeatureKey{v[first], none, none}
+                                            : FeatureKey{v[first], v[next], none};
+        std::sort(feature.begin(), feature.end());
+        touches.push_back({feature, c.height});
+      });
   std::sort(touches.begin(), touches.end(), [](const Touch& a, const Touch& b) {
     return a.height != b.height ? a.height > b.height : a.feature < b.feature;
   });
@@ -225,7 +236,8 @@ void Solid::lower(double x, double y, double radius, double tie, std::vector<Tou
         return v == none || std::find(t.feature.begin(), t.feature.end(), v) != t.feature.end();
       });
     };
-    if (std::any_of(touches.begin(), touches.begin() + std::ptrdiff_t(i), covers)) touches.erase(touches.begin() + std::ptrdiff_t(i));
+    if (std::any_of(touches.begin(), touches.begin() + std::ptrdiff_t(i), covers))
+      touches.erase(touches.begin() + std::ptrdiff_t(i));
   }
 }
 
@@ -236,12 +248,15 @@ double Solid::distance_in(Space<double> c, double limit) const {
     const double dz = std::max(0.0, c.z - b.high[2]), square = b.square_distance(c.x, c.y) + dz * dz;
     return square < best ? square : std::numeric_limits<double>::infinity();
   };
-  tree_.search(key, [&] { return best; }, [&](std::uint32_t t) {
-    const Space<T> from(c), p[3] = {Space<T>(corner(t, 0)) - from, Space<T>(corner(t, 1)) - from, Space<T>(corner(t, 2)) - from};
-    const Space<T> near = nearest_on_triangle(p[0], p[1], p[2]);
-    // Where the nearest point lies higher than c, the nearest of what is solid below the triangle is level with c.
-    best = std::min(best, double(near.z > 0 ? square_axis_distance(p) : square(near)));
-  });
+  tree_.search(
+      key, [&] { return best; },
+      [&](std::uint32_t t) {
+        const Space<T> from(c),
+            p[3] = {Space<T>(corner(t, 0)) - from, Space<T>(corner(t, 1)) - from, Space<T>(corner(t, 2)) - from};
+        const Space<T> near = nearest_on_triangle(p[0], p[1], p[2]);
+        // Where the nearest point lies higher than c, the nearest of what is solid below the triangle is level with c.
+        best = std::min(best, double(near.z > 0 ? square_axis_distance(p) : square(near)));
+      });
   return best < limit * limit ? std::sqrt(best) : limit;
 }
 
@@ -254,11 +269,13 @@ double Solid::plane_distance(double x, double y, double limit) const {
     const double square = b.square_distance(x, y);
     return square < best ? square : std::numeric_limits<double>::infinity();
   };
-  tree_.search(key, [&] { return best; }, [&](std::uint32_t t) {
-    Space<double> p[3];
-    for (int k = 0; k < 3; ++k) p[k] = {corner(t, k).x - x, corner(t, k).y - y, 0};
-    best = std::min(best, square_axis_distance(p));
-  });
+  tree_.search(
+      key, [&] { return best; },
+      [&](std::uint32_t t) {
+        Space<double> p[3];
+        for (int k = 0; k < 3; ++k) p[k] = {corner(t, k).x - x, corner(t, k).y - y, 0};
+        best = std::min(best, square_axis_distance(p));
+      });
   return best < limit * limit ? std::sqrt(best) : limit;
 }
 

@@ -39,8 +39,8 @@ class Solid {
     FeatureKey feature;
     long double height;
   };
-  /// Lets the ball's centre down at (x, y): the highest touch first, then all others that differ from it by at most `tie`.
-  /// Empty if it touches nothing.
+  /// Lets the ball's centre down at (x, y): the highest touch first, then all others that differ from it by at most
+  /// `tie`. Empty if it touches nothing.
   void lower(double x, double y, double radius, double tie, std::vector<Touch>& touches) const;
 
   /// Distance from c to the solid if less than `limit`, otherwise `limit`. Zero inside.
@@ -58,7 +58,7 @@ class Solid {
 
   Point3 origin_;
   double resolution_;
-  std::vector<Point3> vertices_;  // ascending
+  std::vector<Point3> vertices_;                         // ascending
   std::vector<std::array<std::uint32_t, 3>> triangles_;  // vertices ascending
   BoxHierarchy tree_;
 };

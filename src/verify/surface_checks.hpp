@@ -27,16 +27,16 @@ struct SurfaceCase {
   std::uint64_t seed;
   const Context& context;
 
-  std::vector<Shape> shape;              ///< per feature
-  std::vector<FeatureKey> key;           ///< per feature
-  std::vector<Index> forward;            ///< per edge: the half-edge along its points
-  std::vector<Index> loop;               ///< per half-edge
-  std::vector<Index> loop_start;         ///< per loop: a half-edge
-  std::vector<bool> loop_outer;          ///< per loop: it is the outer one of its face
-  std::vector<Index> component;          ///< per vertex: its component, numbered from 0
+  std::vector<Shape> shape;       ///< per feature
+  std::vector<FeatureKey> key;    ///< per feature
+  std::vector<Index> forward;     ///< per edge: the half-edge along its points
+  std::vector<Index> loop;        ///< per half-edge
+  std::vector<Index> loop_start;  ///< per loop: a half-edge
+  std::vector<bool> loop_outer;   ///< per loop: it is the outer one of its face
+  std::vector<Index> component;   ///< per vertex: its component, numbered from 0
   std::size_t components = 0;
-  /// Per edge: how far its chords may be from its true curve in the plane, and the area between chords and curve (positive
-  /// where the curve runs right of the chord).
+  /// Per edge: how far its chords may be from its true curve in the plane, and the area between chords and curve
+  /// (positive where the curve runs right of the chord).
   std::vector<double> sag, bulge;
 
   Index label(Index face) const { return file.faces[face].feature; }

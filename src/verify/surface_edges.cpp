@@ -55,8 +55,9 @@ class EdgeChecker {
     edge_sag = 1.5 * sag + limit_, edge_bulge = bulge;
   }
 
-  /// How far c is from having distance R to both features. Where the two touched points lie in nearly the same direction, the
-  /// place along the surface is not well determined: a touched point outside its feature counts by what the ball misses.
+  /// How far c is from having distance R to both features. Where the two touched points lie in nearly the same
+  /// direction, the place along the surface is not well determined: a touched point outside its feature counts by what
+  /// the ball misses.
   double touching(const SubdivisionFile::Edge& edge, Vec3 c) const {
     const double off = touching_in<double>(edge, c);
     return off <= limit_ / 8 ? off : touching_in<Quad>(edge, c);
@@ -90,8 +91,8 @@ class EdgeChecker {
     return std::max(worst, outside * turn);
   }
 
-  /// Along a seam both features are touched at the same place, along a rim the ball touches with its equator. Distances would
-  /// tell the square of the deviation only.
+  /// Along a seam both features are touched at the same place, along a rim the ball touches with its equator. Distances
+  /// would tell the square of the deviation only.
   double joining(const SubdivisionFile::Edge& edge, Vec3 c) const {
     const auto off = [&]<class T>(T) {
       if (edge.kind == EdgeKind::seam)
@@ -109,7 +110,8 @@ class EdgeChecker {
     return std::abs(surface_.solid.plane_distance(c.x, c.y, 1.5 * surface_.radius) - surface_.radius);
   }
 
-  /// The edge's ends are its vertices. At a rim the vertex is that of the upper side, and what ends below keeps its height.
+  /// The edge's ends are its vertices. At a rim the vertex is that of the upper side, and what ends below keeps its
+  /// height.
   void ends(Index e, EdgeTallies& sum) const {
     const Index h = surface_.forward[e], twin = file_.half_edges[h].twin;
     const auto one = [&](Index half, std::uint64_t i) {
@@ -134,10 +136,12 @@ class EdgeChecker {
     return worst;
   }
 
-  /// Distance of all points from the circle through three of them; where those are nearly on a line, from the plane only.
+  /// Distance of all points from the circle through three of them; where those are nearly on a line, from the plane
+  /// only.
   double off_circle(std::uint64_t first, std::uint64_t last) const {
     const std::uint64_t count = last - first;
-    const Vec3 a = surface_.point(first), b = surface_.point(first + count / 3), c = surface_.point(first + 2 * count / 3);
+    const Vec3 a = surface_.point(first), b = surface_.point(first + count / 3),
+               c = surface_.point(first + 2 * count / 3);
     const Vec3 u = b - a, v = c - a, n = cross(u, v);
     const double nn = square(n);
     if (!(nn > 1e-8 * square(u) * square(v))) return 0;
@@ -198,7 +202,8 @@ class EdgeChecker {
     const double radius = surface_.radius;
     Vec3 c = m;
     for (int round = 0; round < 12; ++round) {
-      const Vec3 p = c - foot_on(surface_.shape[edge.feature[0]], c).at, q = c - foot_on(surface_.shape[edge.feature[1]], c).at;
+      const Vec3 p = c - foot_on(surface_.shape[edge.feature[0]], c).at,
+                 q = c - foot_on(surface_.shape[edge.feature[1]], c).at;
       const double p_length = length(p), q_length = length(q);
       if (!(p_length > 0 && q_length > 0)) return std::nullopt;
       const Vec3 u = (1 / p_length) * p, v = (1 / q_length) * q;
@@ -230,13 +235,11 @@ std::vector<Check> check_edges(SurfaceCase& surface) {
     checker.check(Index(e), t, surface.sag[e], surface.bulge[e]);
   });
   const Real limit = surface.tolerance;
-  std::vector<Check> checks{sum.ends.check("edges end at vertices", limit),
-                            sum.touch.check("edges touch their features", limit),
-                            sum.join.check("seams and rims in place", limit),
-                            sum.empty.check("nothing nearer to edges", limit),
-                            sum.shape.check("lines and circles", limit),
-                            sum.between.check("curves between their points", limit),
-                            sum.outline.check("outline at distance R", limit)};
+  std::vector<Check> checks{
+      sum.ends.check("edges end at vertices", limit),   sum.touch.check("edges touch their features", limit),
+      sum.join.check("seams and rims in place", limit), sum.empty.check("nothing nearer to edges", limit),
+      sum.shape.check("lines and circles", limit),      sum.between.check("curves between their points", limit),
+      sum.outline.check("outline at distance R", limit)};
   if (sum.loose > 0) checks[5].note = std::to_string(sum.loose) + " not followed";
   return checks;
 }

@@ -76,7 +76,8 @@ Check check_crossings(const SurfaceCase& surface, const EdgeMap& map) {
       for (std::uint64_t i = file.edges[e].first + 1; i < file.points_end(e); ++i)
         for (std::uint64_t j = file.edges[g].first + 1; j < file.points_end(g); ++j) {
           const Vec3 a = surface.point(i - 1);
-          const double depth = crossing_depth(a, surface.point(i), surface.point(j - 1), surface.point(j)) - surface.sag[e] - surface.sag[g];
+          const double depth = crossing_depth(a, surface.point(i), surface.point(j - 1), surface.point(j)) -
+                               surface.sag[e] - surface.sag[g];
           if (depth > worst) worst = depth, where = Vec(a.x, a.y);
         }
     });

@@ -1,4 +1,5 @@
-// Checks at random places: the ball is let down there by brute force, and what it touches is compared with the face above.
+// Checks at random places: the ball is let down there by brute force, and what it touches is compared with the face
+// above.
 #include <algorithm>
 #include <unordered_map>
 
@@ -59,21 +60,25 @@ class Sampler {
   }
 
  private:
-  /// Half of the places anywhere, half beside edges, as far from them as they are long, so that small faces are met too.
+  /// Half of the places anywhere, half beside edges, as far from them as they are long, so that small faces are met
+  /// too.
   Space<double> place(std::size_t i) const {
     Random random(surface_.seed + 3, i);
     const auto unit = [&] { return double(random.unit()); };
     if (i % 2 == 0 || surface_.file.edges.empty())
-      return {box_.low[0] + unit() * (box_.high[0] - box_.low[0]), box_.low[1] + unit() * (box_.high[1] - box_.low[1]), 0};
+      return {box_.low[0] + unit() * (box_.high[0] - box_.low[0]), box_.low[1] + unit() * (box_.high[1] - box_.low[1]),
+              0};
     const std::size_t e = random.below(surface_.file.edges.size());
     const std::uint64_t first = surface_.file.edges[e].first, count = surface_.file.points_end(e) - first;
     const Space<double> p = surface_.point(first + random.below(count));
-    const double size = length(surface_.point(first + count - 1) - surface_.point(first + count / 2)) * std::pow(2, -8 * unit());
+    const double size =
+        length(surface_.point(first + count - 1) - surface_.point(first + count / 2)) * std::pow(2, -8 * unit());
     return {p.x + size * (2 * unit() - 1), p.y + size * (2 * unit() - 1), 0};
   }
 
   Index number_of(const FeatureKey& key) const {
-    const auto at = std::lower_bound(order_.begin(), order_.end(), key, [&](Index f, const FeatureKey& k) { return surface_.key[f] < k; });
+    const auto at = std::lower_bound(order_.begin(), order_.end(), key,
+                                     [&](Index f, const FeatureKey& k) { return surface_.key[f] < k; });
     return at != order_.end() && surface_.key[*at] == key ? *at : SurfaceCase::none;
   }
 
@@ -103,10 +108,11 @@ class Sampler {
 std::vector<Check> check_samples(const SurfaceCase& surface) {
   const EdgeMap map(surface);
   const Sampler sampler(surface, map);
-  const auto sum = tally_all<SampleTallies>(surface.context, surface.samples, [&](std::size_t i, SampleTallies& t) { sampler.sample(i, t); });
+  const auto sum = tally_all<SampleTallies>(surface.context, surface.samples,
+                                            [&](std::size_t i, SampleTallies& t) { sampler.sample(i, t); });
   Check label = sum.label.check("what the ball touches", surface.tolerance);
-  label.note = std::to_string(sum.near_curves) + " between chord and curve, " + std::to_string(sum.undecided) + " undecided, " +
-               std::to_string(sum.nothing) + " touch nothing";
+  label.note = std::to_string(sum.near_curves) + " between chord and curve, " + std::to_string(sum.undecided) +
+               " undecided, " + std::to_string(sum.nothing) + " touch nothing";
   return {label, sum.height.check("height where it touches", 1e-12L * Real(surface.scale))};
 }
 

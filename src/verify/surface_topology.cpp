@@ -18,19 +18,22 @@ bool in_range(const SubdivisionFile& file, Rules& rules) {
   const auto below_or_none = [](Index i, const auto& list) { return i == SurfaceCase::none || i < list.size(); };
   for (std::size_t h = 0; h < file.half_edges.size(); ++h) {
     const auto& half = file.half_edges[h];
-    rules.require(below(half.origin, file.vertices) && below(half.twin, file.half_edges) && below(half.next, file.half_edges) &&
-                      below(half.face, file.faces) && below(half.edge, file.edges),
+    rules.require(below(half.origin, file.vertices) && below(half.twin, file.half_edges) &&
+                      below(half.next, file.half_edges) && below(half.face, file.faces) && below(half.edge, file.edges),
                   "an index out of range in half-edge", h);
   }
   for (std::size_t e = 0; e < file.edges.size(); ++e)
-    rules.require(below_or_none(file.edges[e].feature[0], file.features) && below_or_none(file.edges[e].feature[1], file.features),
+    rules.require(below_or_none(file.edges[e].feature[0], file.features) &&
+                      below_or_none(file.edges[e].feature[1], file.features),
                   "a feature out of range in edge", e);
   for (std::size_t f = 0; f < file.faces.size(); ++f)
-    rules.require(below_or_none(file.faces[f].feature, file.features) && below_or_none(file.faces[f].outer, file.half_edges),
-                  "an index out of range in face", f);
+    rules.require(
+        below_or_none(file.faces[f].feature, file.features) && below_or_none(file.faces[f].outer, file.half_edges),
+        "an index out of range in face", f);
   for (const Index h : file.inner) rules.require(below(h, file.half_edges), "an inner loop out of range", h);
   rules.require(!file.faces.empty(), "no face", 0);
-  rules.require(file.half_edges.size() == 2 * file.edges.size(), "not two half-edges for each of the edges", file.edges.size());
+  rules.require(file.half_edges.size() == 2 * file.edges.size(), "not two half-edges for each of the edges",
+                file.edges.size());
   return rules.ok();
 }
 
@@ -70,7 +73,8 @@ bool loops(SurfaceCase& surface, Rules& rules) {
     if (surface.loop[h] != SurfaceCase::none) continue;
     const auto number = Index(surface.loop_start.size());
     surface.loop_start.push_back(Index(h));
-    for (Index i = Index(h); surface.loop[i] == SurfaceCase::none; i = file.half_edges[i].next) surface.loop[i] = number;
+    for (Index i = Index(h); surface.loop[i] == SurfaceCase::none; i = file.half_edges[i].next)
+      surface.loop[i] = number;
   }
   std::vector<std::uint8_t> listed(surface.loop_start.size(), 0);
   surface.loop_outer.assign(surface.loop_start.size(), false);
@@ -90,7 +94,8 @@ bool loops(SurfaceCase& surface, Rules& rules) {
   return rules.ok();
 }
 
-/// Euler's formula for each component, and that one of its loops is an inner one: the hole it makes in the face around it.
+/// Euler's formula for each component, and that one of its loops is an inner one: the hole it makes in the face around
+/// it.
 bool components(SurfaceCase& surface, Rules& rules) {
   const SubdivisionFile& file = surface.file;
   std::vector<Index> parent(file.vertices.size());
@@ -151,8 +156,9 @@ void features_exist(const SurfaceCase& surface, Rules& rules) {
   for (std::size_t t = 0; t < surface.solid.triangle_count(); ++t) {
     const auto& v = surface.solid.triangle(t);
     constexpr std::uint32_t no = Solid::none;
-    for (const FeatureKey& key : {FeatureKey{v[0], v[1], v[2]}, FeatureKey{v[0], v[1], no}, FeatureKey{v[0], v[2], no},
-                                  FeatureKey{v[1], v[2], no}, FeatureKey{v[0], no, no}, FeatureKey{v[1], no, no}, FeatureKey{v[2], no, no}})
+    for (const FeatureKey& key :
+         {FeatureKey{v[0], v[1], v[2]}, FeatureKey{v[0], v[1], no}, FeatureKey{v[0], v[2], no},
+          FeatureKey{v[1], v[2], no}, FeatureKey{v[0], no, no}, FeatureKey{v[1], no, no}, FeatureKey{v[2], no, no}})
       if (const auto at = found.find(key); at != found.end()) at->second = true;
   }
   for (std::size_t i = 0; i < surface.key.size(); ++i)
@@ -188,7 +194,8 @@ Check check_labels(const SurfaceCase& surface) {
                   "a rim has one feature, others two: edge", e);
     int low = 3, high = 1;
     for (const Index f : edge.feature)
-      if (f != SurfaceCase::none) low = std::min(low, surface.shape[f].count), high = std::max(high, surface.shape[f].count);
+      if (f != SurfaceCase::none)
+        low = std::min(low, surface.shape[f].count), high = std::max(high, surface.shape[f].count);
     if (edge.feature[0] != SurfaceCase::none || edge.feature[1] != SurfaceCase::none)
       rules.require(curve_fits(edge, low, high), "features that cannot make such a curve: edge", e);
   }
@@ -197,7 +204,8 @@ Check check_labels(const SurfaceCase& surface) {
       // A hole is bounded by rims only, and so is the outside.
       Index h = file.faces[f].outer;
       do {
-        rules.require(file.edges[file.half_edges[h].edge].kind == EdgeKind::rim, "not a rim around a hole: half-edge", h);
+        rules.require(file.edges[file.half_edges[h].edge].kind == EdgeKind::rim, "not a rim around a hole: half-edge",
+                      h);
         h = file.half_edges[h].next;
       } while (h != file.faces[f].outer);
     }

@@ -49,8 +49,8 @@ void run_checks(SurfaceCase& surface, SurfaceReport& report) {
 
 }  // namespace
 
-Result<SurfaceReport> check_surface(input::SubdivisionFile file, const Terrain& terrain, const SurfaceCheckOptions& options,
-                                    const Context& context) {
+Result<SurfaceReport> check_surface(input::SubdivisionFile file, const Terrain& terrain,
+                                    const SurfaceCheckOptions& options, const Context& context) {
   if (!(std::isfinite(options.radius) && options.radius > 0))
     return Error{ErrorCode::usage, "the radius must be a finite positive number", "", ""};
   const Solid solid(terrain);
@@ -61,14 +61,32 @@ Result<SurfaceReport> check_surface(input::SubdivisionFile file, const Terrain& 
   report.tolerance = std::max(1e-9 * report.scale, 64 * solid.resolution());
   report.triangles = solid.triangle_count();
   report.vertices = file.vertices.size(), report.edges = file.edges.size(), report.faces = file.faces.size();
-  SurfaceCase surface{file, solid, options.radius, report.scale, report.tolerance, 0, options.seed, context, {}, {}, {}, {}, {}, {}, {}, 0, {}, {}};
+  SurfaceCase surface{file,
+                      solid,
+                      options.radius,
+                      report.scale,
+                      report.tolerance,
+                      0,
+                      options.seed,
+                      context,
+                      {},
+                      {},
+                      {},
+                      {},
+                      {},
+                      {},
+                      {},
+                      0,
+                      {},
+                      {}};
   surface.samples = options.samples != 0 ? options.samples : default_samples(report.edges);
   for (const auto& feature : file.features) {
     surface.shape.push_back({feature.at, feature.count});
     surface.key.push_back(solid.key_of(surface.shape.back()));
   }
   for (std::size_t f = 1; f < file.faces.size(); ++f) report.holes += file.faces[f].feature == SurfaceCase::none;
-  report.checks.push_back(check_radius(file.radius, options.radius, std::nextafter(options.radius, HUGE_VAL) - options.radius));
+  report.checks.push_back(
+      check_radius(file.radius, options.radius, std::nextafter(options.radius, HUGE_VAL) - options.radius));
   run_checks(surface, report);
   if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while checking", "", ""};
   for (Check& check : report.checks) check.where = {check.where.x + solid.origin().x, check.where.y + solid.origin().y};

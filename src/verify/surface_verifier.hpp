@@ -32,10 +32,10 @@ struct SurfaceReport {
   }
 };
 
-/// Checks the surface of terrain (+) ball against the terrain by brute force; see docs/verification.md for what each check
-/// proves. If the topology itself is broken, the other checks are left out.
-/// Errors: radius not finite and positive, cancelled.
-Result<SurfaceReport> check_surface(input::SubdivisionFile file, const Terrain& terrain, const SurfaceCheckOptions& options,
-                                    const Context& context = {});
+/// Checks the surface of terrain (+) ball against the terrain by brute force; see docs/verification.md for what each
+/// check proves. If the topology itself is broken, the other checks are left out. Errors: radius not finite and
+/// positive, cancelled.
+Result<SurfaceReport> check_surface(input::SubdivisionFile file, const Terrain& terrain,
+                                    const SurfaceCheckOptions& options, const Context& context = {});
 
 }  // namespace krepl::verify

@@ -109,7 +109,8 @@ TEST(SubdivisionFile, EndsAnywhere) {
 TEST(SubdivisionFile, IsToldFromOtherJson) {
   const TemporaryDirectory directory;
   EXPECT_TRUE(input::looks_like_subdivision(directory.write("a.json", right)));
-  EXPECT_FALSE(input::looks_like_subdivision(directory.write("b.json", R"({"type":"FeatureCollection","features":[]})")));
+  EXPECT_FALSE(
+      input::looks_like_subdivision(directory.write("b.json", R"({"type":"FeatureCollection","features":[]})")));
   EXPECT_FALSE(input::looks_like_subdivision("/nowhere.json"));
 }
 

@@ -30,8 +30,8 @@ Point3 cross(Point3 a, Point3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.
 double dot(Point3 a, Point3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Point3 unit(Point3 a) { return (1 / std::sqrt(dot(a, a))) * a; }
 
-/// The upper boundary of triangle (+) ball: a plane, three half-cylinders, three sectors of spheres. Several triangles whose
-/// outlines do not meet make one subdivision.
+/// The upper boundary of triangle (+) ball: a plane, three half-cylinders, three sectors of spheres. Several triangles
+/// whose outlines do not meet make one subdivision.
 class Kreplach {
  public:
   explicit Kreplach(double radius) {
@@ -39,12 +39,13 @@ class Kreplach {
     file.faces.push_back({none, none, 0});
   }
 
-  /// Feature and face numbers of the triangle follow each other: plane, cylinders, spheres. Its outline is an inner loop of
-  /// face `around`.
+  /// Feature and face numbers of the triangle follow each other: plane, cylinders, spheres. Its outline is an inner
+  /// loop of face `around`.
   void add(const Triangle& triangle, Index around = 0) {
     const auto v = triangle.at;
     const double r = file.radius;
-    const auto feature = Index(file.features.size()), face = Index(file.faces.size()), vertex = Index(file.vertices.size());
+    const auto feature = Index(file.features.size()), face = Index(file.faces.size()),
+               vertex = Index(file.vertices.size());
     file.features.push_back({{v[0], v[1], v[2]}, 3});
     for (int i = 0; i < 3; ++i) file.features.push_back({{v[i], v[(i + 1) % 3], {}}, 2});
     for (int i = 0; i < 3; ++i) file.features.push_back({{v[i], {}, {}}, 1});
@@ -68,10 +69,12 @@ class Kreplach {
     }
     add_face(feature, cycle(face, {2 * seam[0], 2 * seam[1], 2 * seam[2]}));
     for (int i = 0; i < 3; ++i)
-      add_face(feature + edge(i), cycle(face + edge(i), {2 * rim[i], 2 * before[(i + 1) % 3] + 1, 2 * seam[i] + 1, 2 * after[i]}));
+      add_face(feature + edge(i),
+               cycle(face + edge(i), {2 * rim[i], 2 * before[(i + 1) % 3] + 1, 2 * seam[i] + 1, 2 * after[i]}));
     for (int i = 0; i < 3; ++i)
       add_face(feature + corner(i), cycle(face + corner(i), {2 * round[i], 2 * after[i] + 1, 2 * before[i]}));
-    const Index outside = cycle(around, {2 * rim[2] + 1, 2 * round[2] + 1, 2 * rim[1] + 1, 2 * round[1] + 1, 2 * rim[0] + 1, 2 * round[0] + 1});
+    const Index outside = cycle(
+        around, {2 * rim[2] + 1, 2 * round[2] + 1, 2 * rim[1] + 1, 2 * round[1] + 1, 2 * rim[0] + 1, 2 * round[0] + 1});
     file.inner.insert(file.inner.begin() + std::ptrdiff_t(file.inner_end(around)), outside);
     for (Index f = around + 1; f < file.faces.size(); ++f) ++file.faces[f].first_inner;
   }
@@ -81,7 +84,8 @@ class Kreplach {
  private:
   static constexpr int points = 5;
 
-  Index add_edge(EdgeKind kind, Curve curve, std::array<Index, 2> feature, Index from, Index to, const std::function<Point3(double)>& at) {
+  Index add_edge(EdgeKind kind, Curve curve, std::array<Index, 2> feature, Index from, Index to,
+                 const std::function<Point3(double)>& at) {
     const auto e = Index(file.edges.size());
     file.edges.push_back({kind, curve, feature, file.points.size()});
     file.points.push_back(file.vertices[from]);
@@ -99,7 +103,8 @@ class Kreplach {
   Index arc(EdgeKind kind, std::array<Index, 2> feature, Point3 c, Point3 u, Point3 w, Index from, Index to) {
     const double angle = std::acos(dot(u, w)), r = file.radius;
     return add_edge(kind, Curve::circle, feature, from, to, [&](double t) {
-      return c + (r * std::sin((1 - t) * angle) / std::sin(angle)) * u + (r * std::sin(t * angle) / std::sin(angle)) * w;
+      return c + (r * std::sin((1 - t) * angle) / std::sin(angle)) * u +
+             (r * std::sin(t * angle) / std::sin(angle)) * w;
     });
   }
   Index cycle(Index face, const std::vector<Index>& half_edges) {
@@ -169,7 +174,8 @@ SurfaceReport check(const Example& example, double radius = 0) {
 std::string text(const SurfaceReport& report) {
   std::string lines;
   for (const Check& c : report.checks)
-    lines += c.name + ": " + std::to_string(c.violations) + " of " + std::to_string(c.tested) + ", worst " + std::to_string(c.worst) + " " + c.note + "\n";
+    lines += c.name + ": " + std::to_string(c.violations) + " of " + std::to_string(c.tested) + ", worst " +
+             std::to_string(c.worst) + " " + c.note + "\n";
   return lines;
 }
 
@@ -196,7 +202,8 @@ TEST(SurfaceVerifier, TellsAreaAndCounts) {
   double expected = 0;
   for (const Triangle& t : {big, beside}) {
     double perimeter = 0;
-    for (int i = 0; i < 3; ++i) perimeter += std::hypot(t.at[(i + 1) % 3].x - t.at[i].x, t.at[(i + 1) % 3].y - t.at[i].y);
+    for (int i = 0; i < 3; ++i)
+      perimeter += std::hypot(t.at[(i + 1) % 3].x - t.at[i].x, t.at[(i + 1) % 3].y - t.at[i].y);
     expected += cross(t.at[1] - t.at[0], t.at[2] - t.at[0]).z / 2 + perimeter + std::acos(-1);
   }
   EXPECT_NEAR(report.area, expected, 0.01);  // arcs are taken as parabolas between five points
@@ -210,11 +217,18 @@ TEST(SurfaceVerifier, CatchesBrokenTopology) {
       {"index out of range", [](auto& f) { f.half_edges[7].origin = 1000; }},
       {"feature out of range", [](auto& f) { f.edges[7].feature[0] = 1000; }},
       {"origin moved", [](auto& f) { f.half_edges[7].origin = f.half_edges[3].origin; }},
-      {"inner loop dropped", [](auto& f) { f.inner.erase(f.inner.begin()); for (auto& face : f.faces) face.first_inner -= face.first_inner > 0; }},
+      {"inner loop dropped",
+       [](auto& f) {
+         f.inner.erase(f.inner.begin());
+         for (auto& face : f.faces) face.first_inner -= face.first_inner > 0;
+       }},
       {"outer loop of another face", [](auto& f) { f.faces[2].outer = f.faces[3].outer; }},
       {"face of one half-edge", [](auto& f) { f.half_edges[3].face = 2; }},
       {"half-edge missing", [](auto& f) { f.half_edges.pop_back(); }},
-      {"vertex without edge", [](auto& f) { f.vertices.push_back({1, 1, 1}); }},
+      {"vertex without edge",
+       [](auto& f) {
+         f.vertices.push_back({1, 1, 1});
+       }},
       {"outside with a feature", [](auto& f) { f.faces[0].feature = 0; }},
   };
   for (const auto& [name, fault] : faults) {
@@ -320,7 +334,8 @@ TEST(SurfaceVerifier, CatchesAFalseDrawing) {
 
   // One side of the plane runs through the other two.
   Example crossing = single();
-  for (int i = 1; i < 4; ++i) crossing.file.points[crossing.file.edges[0].first + std::size_t(i)] = {6 + 0.1 * i, 30, 0};
+  for (int i = 1; i < 4; ++i)
+    crossing.file.points[crossing.file.edges[0].first + std::size_t(i)] = {6 + 0.1 * i, 30, 0};
   expect_caught(crossing, "edges do not cross");
 }
 
