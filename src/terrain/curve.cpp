@@ -1,5 +1,6 @@
 #include "terrain/curve.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -122,6 +123,27 @@ Point3 project_to_curve(const Terrain& terrain, double radius, const Surface::Ed
     if (length(step) <= 4e-16 * (std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z))) break;
   }
   return p;
+}
+
+double height_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 p) {
+  double nearest = std::numeric_limits<double>::infinity(), height = p.z;
+  for (const Surface::Index feature : edge.feature) {
+    if (feature == Surface::none) continue;
+    const Contact c = contact_of(terrain, feature);
+    const Vector3 v = p - c.at;
+    double h;
+    if (c.kind == FeatureKind::face) {
+      h = c.at.z + (radius - c.direction.x * v.x - c.direction.y * v.y) / c.direction.z;
+    } else if (c.kind == FeatureKind::vertex) {
+      h = c.at.z + std::sqrt(std::max(0.0, radius * radius - v.x * v.x - v.y * v.y));
+    } else {
+      const double flat = std::hypot(c.direction.x, c.direction.y), m = c.direction.z / flat;
+      const double along = (v.x * c.direction.x + v.y * c.direction.y) / flat, aside = (v.y * c.direction.x - v.x * c.direction.y) / flat;
+      h = c.at.z + m * along + std::sqrt(std::max(0.0, radius * radius - aside * aside)) / flat;
+    }
+    if (std::fabs(h - p.z) < nearest) nearest = std::fabs(h - p.z), height = h;
+  }
+  return height;
 }
 
 }  // namespace krepl::terrain

@@ -13,6 +13,7 @@ using drop::Search;
 
 constexpr std::size_t tile_side = 32;  // places; the work of one block
 constexpr std::size_t most_side = 8;   // places that share a walk
+constexpr std::size_t least_together = 3;
 
 /// Places [column, column + columns) x [row, row + rows) of a raster.
 struct Patch {
@@ -41,8 +42,7 @@ class DropCutter::TileWork {
     for (std::size_t k = 0; k < across * up; ++k) {
       const std::size_t j = k / across, i = j % 2 == 0 ? k % across : across - 1 - k % across;
       const std::size_t column = i * side_x, row = j * side_y;
-      const Patch patch{tile.column + column, tile.row + row, std::min(side_x, tile.columns - column), std::min(side_y, tile.rows - row)};
-      if (patch.columns * patch.rows < 3 || !run_together(patch)) run_one_by_one(patch);
+      run({tile.column + column, tile.row + row, std::min(side_x, tile.columns - column), std::min(side_y, tile.rows - row)});
     }
   }
 
@@ -56,13 +56,26 @@ class DropCutter::TileWork {
     }
   }
 
+  /// Together, or else in parts.
+  void run(const Patch& patch) {
+    if (patch.columns * patch.rows < least_together || trace_.triangle == Terrain::none) return run_one_by_one(patch);
+    if (run_together(patch)) return;
+    Patch first = patch, second = patch;
+    if (patch.columns > patch.rows) {
+      first.columns = patch.columns / 2, second.columns -= first.columns, second.column += first.columns;
+    } else {
+      first.rows = patch.rows / 2, second.rows -= first.rows, second.row += first.rows;
+    }
+    run(first);
+    run(second);
+  }
+
   void run_one_by_one(const Patch& patch) {
     for_each(patch, [&](Point place, Contact& contact) { contact = h_.touch(tree_, place, radius_, trace_); });
   }
 
-  /// False if it would not pay, or is not possible.
+  /// False if the list would become long.
   bool run_together(const Patch& patch) {
-    if (trace_.triangle == Terrain::none) return false;
     const Point a = raster_.place(patch.column, patch.row);
     const Point b = raster_.place(patch.column + patch.columns - 1, patch.row + patch.rows - 1);
     const Point centre{a.x / 2 + b.x / 2, a.y / 2 + b.y / 2};
@@ -71,10 +84,13 @@ class DropCutter::TileWork {
     const double half_x = std::abs(b.x - centre.x) + 0x1p-50 * (std::abs(a.x) + std::abs(b.x));
     const double half_y = std::abs(b.y - centre.y) + 0x1p-50 * (std::abs(a.y) + std::abs(b.y));
     drop::Shortlist list;
-    if (!survey(centre, half_x, half_y, list)) return false;
+    Point slope;
+    if (!survey(centre, half_x, half_y, slope, list)) return false;
+    const double unit = tree_.inverse_unit();
     for_each(patch, [&](Point place, Contact& contact) {
       Search search = h_.begin(tree_, place, radius_, trace_);
-      list.run(tree_, search, float((place.x - centre.x) * tree_.inverse_unit()), float((place.y - centre.y) * tree_.inverse_unit()));
+      const double dx = (place.x - centre.x) * unit, dy = (place.y - centre.y) * unit;
+      list.run(tree_, search, float(dx), float(dy), float(slope.x * dx + slope.y * dy));
       contact = h_.end(tree_, search, trace_);
     });
     return true;
@@ -83,7 +99,7 @@ class DropCutter::TileWork {
   /// A point that the ball about touches over the centre gives a lower bound of all heights over the rectangle: those of
   /// balls that touch this point, which form a sphere, a concave surface, so it lies above the least of its corners even after
   /// its tangent plane at the centre is taken off.
-  bool survey(Point centre, double half_x, double half_y, drop::Shortlist& list) const {
+  bool survey(Point centre, double half_x, double half_y, Point& slope, drop::Shortlist& list) const {
     const Search first = h_.begin(tree_, centre, radius_, trace_);
     if (first.feature() == Terrain::none) return false;
     Hierarchy::Trace ignored;
@@ -92,10 +108,12 @@ class DropCutter::TileWork {
     const auto sphere = [&](double x, double y) { return squared - (ex - x) * (ex - x) - (ey - y) * (ey - y); };
     const double least = std::min({sphere(half_x, half_y), sphere(-half_x, half_y), sphere(half_x, -half_y), sphere(-half_x, -half_y)});
     if (least < 0.25 * squared) return false;
-    const double rho = std::sqrt(sphere(0, 0)), slope_x = ex / rho, slope_y = ey / rho;
-    const auto relative = [&](double x, double y) { return p.z + std::sqrt(sphere(x, y)) - slope_x * x - slope_y * y; };
+    const double rho = std::sqrt(sphere(0, 0));
+    const float slope_x = float(ex / rho), slope_y = float(ey / rho);
+    slope = {slope_x, slope_y};
+    const auto relative = [&](double x, double y) { return p.z + std::sqrt(sphere(x, y)) - slope.x * x - slope.y * y; };
     const double unit = tree_.inverse_unit();
-    drop::Survey survey = tree_.survey(centre, radius_, {drop::up(half_x * unit), drop::up(half_y * unit), float(slope_x), float(slope_y)});
+    drop::Survey survey = tree_.survey(centre, radius_, {drop::up(half_x * unit), drop::up(half_y * unit), slope_x, slope_y});
     survey.raise(std::min({relative(half_x, half_y), relative(-half_x, half_y), relative(half_x, -half_y), relative(-half_x, -half_y)}));
     tree_.list(survey, list);
     return !list.overflowed();

@@ -14,7 +14,7 @@ class Shortlist {
 
   /// The triangles at the lanes of a mask, with their bounds and numbers.
   template <class Number>
-  void add(const FourTriangles& four, unsigned lanes, const float*, const Number& number) {
+  void add(const FourTriangles& four, unsigned lanes, const float* bounds, const Number& number) {
     if (lanes == 0) return;
     if (count_ + 4 > capacity) {
       overflowed_ = true;
@@ -25,23 +25,32 @@ class Shortlist {
     for (std::size_t f = 0; f < fields; ++f) from[f]->store(value[f]);
     for (; lanes != 0; lanes &= lanes - 1) {
       const unsigned lane = unsigned(__builtin_ctz(lanes));
-      for (std::size_t f = 0; f < fields; ++f) field_[f][count_] = value[f][lane];
-      number_[count_++] = number(lane);
-    }
-  }
-  /// To be called once after the last add(): fills up the last four.
-  void close() {
-    for (std::size_t i = count_; i % 4 != 0; ++i) {
-      for (auto& field : field_) field[i] = 0;
-      field_[top][i] = field_[z][i] = -float_infinity;
+      Entry& entry = entry_[count_++];
+      entry.bound = bounds[lane], entry.number = number(lane);
+      for (std::size_t f = 0; f < fields; ++f) entry.field[f] = value[f][lane];
     }
   }
 
-  /// Looks at the triangles by tree.touch(), the place being (dx, dy) off the centre of the list.
+  /// To be called once after the last add(): puts the most promising first.
+  void close() {
+    std::array<std::uint8_t, capacity> order;
+    for (std::size_t i = 0; i < count_; ++i) order[i] = std::uint8_t(i);
+    std::sort(order.begin(), order.begin() + std::ptrdiff_t(count_), [&](std::size_t a, std::size_t b) {
+      return entry_[a].bound != entry_[b].bound ? entry_[a].bound > entry_[b].bound : entry_[a].number < entry_[b].number;
+    });
+    for (std::size_t i = 0; i < (count_ + 3) / 4 * 4; ++i) {
+      const Entry& entry = i < count_ ? entry_[order[i]] : nobody();
+      bound_[i] = entry.bound, number_[i] = entry.number;
+      for (std::size_t f = 0; f < fields; ++f) field_[f][i] = entry.field[f];
+    }
+  }
+
+  /// Looks at the triangles by tree.touch(), the place being (dx, dy) off the centre of the list, where the plane of the
+  /// survey is `rise` higher than there.
   template <class Tree>
-  void run(const Tree& tree, Search& search, float dx, float dy) const {
+  void run(const Tree& tree, Search& search, float dx, float dy, float rise) const {
     Candidates<capacity> found;
-    for (std::size_t i = 0; i < count_; i += 4) {
+    for (std::size_t i = 0; i < count_ && bound_[i] + rise >= search.threshold_of_triangles(); i += 4) {
       const auto load = [&](Field f) { return Float4::load(&field_[f][i]); };
       const FourTriangles four{load(top),     load(z),       load(slope_x), load(slope_y), load(ax) - dx,
                                load(ay) - dy, load(bx) - dx, load(by) - dy, load(cx) - dx, load(cy) - dy};
@@ -59,9 +68,21 @@ class Shortlist {
 
  private:
   enum Field { top, z, slope_x, slope_y, ax, ay, bx, by, cx, cy, fields };
+  struct Entry {
+    float bound;
+    Index number;
+    float field[fields];
+  };
+  static const Entry& nobody() {
+    static constexpr Entry entry{-float_infinity, Terrain::none, {-float_infinity, -float_infinity}};
+    return entry;
+  }
+
   std::size_t count_ = 0;
   bool overflowed_ = false;
-  alignas(16) float field_[fields][capacity];
+  std::array<Entry, capacity> entry_;  // as they came
+  // In order, by fields.
+  float bound_[capacity], field_[fields][capacity];
   Index number_[capacity];
 };
 

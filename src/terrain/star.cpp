@@ -71,9 +71,9 @@ std::optional<Point> Cells::star_point(const Box& box) const {
     const Bound* nearest = nullptr;
     double least = 1e300;
     for (const Index l : {t.before, t.after}) {
-      if (l == none) continue;
+      if (!is_wall_of(t, l)) continue;
       for (const Bound& b : patches.bounds(l)) {
-        if (b.partner != none && b.partner != (l == t.before ? t.after : t.before)) continue;
+        if (b.partner != none) continue;
         const Gradient g = envelope_.bound_gradient(b, t.at);
         const double distance = std::fabs(b.value(t.at, square)) / std::hypot(g.x, g.y);
         if (distance < least) least = distance, nearest = &b;
@@ -98,12 +98,14 @@ std::optional<Point> Cells::star_point(const Box& box) const {
       }
     }
   }
+  const auto rim_gradient = [&](Index l) {
+    const Patch& f = patches[l];
+    return f.kind == Terrain::FeatureKind::edge ? Gradient{f.m * f.gx, f.m * f.gy} : Gradient{0, 0};
+  };
   const auto gradient = [&](const Condition& c, Point p) {
     if (c.bound != nullptr) return envelope_.bound_gradient(*c.bound, p);
-    const Gradient g = patches.gradient(c.a, p), h = patches.gradient(c.b, p);
-    if (!c.at_rim) return Gradient{g.x - h.x, g.y - h.y};
-    const Patch& f = patches[c.b];
-    return f.kind == Terrain::FeatureKind::edge ? Gradient{g.x - f.m * f.gx, g.y - f.m * f.gy} : g;
+    const Gradient g = patches.gradient(c.a, p), h = c.at_rim ? rim_gradient(c.b) : patches.gradient(c.b, p);
+    return Gradient{g.x - h.x, g.y - h.y};
   };
   const auto value = [&](const Condition& c, Point p) {
     if (c.bound != nullptr) return c.bound->value(p, square);
@@ -175,7 +177,9 @@ std::optional<Point> Cells::star_point(const Box& box) const {
   if (c.bound == nullptr || d.bound == nullptr) {
     const auto range = [&](const Condition& k) {
       if (k.bound != nullptr) return envelope_.bound_gradient_range(*k.bound, box);
-      const GradientRange a = envelope_.gradient_range(k.a, box), b = envelope_.gradient_range(k.b, box);
+      const Gradient wall = k.at_rim ? rim_gradient(k.b) : Gradient{0, 0};
+      const GradientRange a = envelope_.gradient_range(k.a, box);
+      const GradientRange b = k.at_rim ? GradientRange{{wall.x, wall.x}, {wall.y, wall.y}} : envelope_.gradient_range(k.b, box);
       return GradientRange{a.x - b.x, a.y - b.y};
     };
     const GradientRange a = range(c), b = range(d);

@@ -12,6 +12,13 @@ std::vector<Point3> Surface::curve(Index e, int points) const {
   std::vector<Point3> base{vertex_[subdivision_.origin[2 * e]]};
   base.insert(base.end(), guide_.begin() + guide_begin_[e], guide_.begin() + guide_begin_[e + 1]);
   base.push_back(vertex_[subdivision_.origin[2 * e + 1]]);
+  // A vertex on a wall is at its upper end; an edge that meets the wall further down ends there.
+  const double scale = std::max(radius_, terrain_->extent());
+  for (Point3* end : {&base.front(), &base.back()}) {
+    const double z = edge_[e].kind == EdgeKind::rim ? terrain::project_to_curve(*terrain_, radius_, edge_[e], *end).z
+                                                    : terrain::height_on_edge(*terrain_, radius_, edge_[e], *end);
+    if (std::fabs(z - end->z) > 1e-7 * scale) end->z = z;
+  }
   if (edge_[e].curve == Curve::line) base.erase(base.begin() + 1, base.end() - 1);
   const auto distance = [](Point3 p, Point3 q) { return std::hypot(p.x - q.x, p.y - q.y, p.z - q.z); };
   double whole = 0;

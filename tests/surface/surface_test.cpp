@@ -23,10 +23,12 @@ struct Highest {
 class BruteForce {
  public:
   BruteForce(const Terrain& terrain, Real radius) : radius_(radius) {
+    if (terrain.is_grid()) {
+      for (const Terrain::Index f : in_use(terrain)) parts_.push_back({terrain.corners(f), f});
+      return;
+    }
     for (std::size_t f = 0; f < terrain.feature_bound(); ++f) {
-      const auto feature = Terrain::Index(f);
-      if (terrain.is_grid() && !in_use(terrain, feature)) continue;
-      parts_.push_back({terrain.corners(feature), feature});
+      parts_.push_back({terrain.corners(Terrain::Index(f)), Terrain::Index(f)});
     }
   }
 
@@ -80,17 +82,21 @@ class BruteForce {
     Terrain::Corners corners;
     Terrain::Index feature;
   };
-  /// Grid features whose triangles are all missing have NaN heights.
-  static bool in_use(const Terrain& t, Terrain::Index f) {
-    const auto& g = t.grid();
-    const std::size_t sample = f / 6, column = sample % g.columns, row = sample / g.columns, kind = f % 6;
-    if ((kind == 1 || kind >= 3) && column + 1 >= g.columns) return false;
-    if (kind >= 2 && row + 1 >= g.rows) return false;
-    const auto c = t.corners(f);
-    for (int i = 0; i < c.count; ++i) {
-      if (!std::isfinite(c.point[std::size_t(i)].z)) return false;
+  /// Features of triangles without a missing corner; cells are split along the rising diagonal.
+  static std::set<Terrain::Index> in_use(const Terrain& t) {
+    std::set<Terrain::Index> features;
+    const auto columns = t.grid().columns;
+    const auto at = [&](std::size_t sample, unsigned kind) { return Terrain::Index(6 * sample + kind); };
+    const auto known = [&](std::size_t sample) { return std::isfinite(t.corners(at(sample, 0)).point[0].z); };
+    for (std::size_t r = 0; r + 1 < t.grid().rows; ++r) {
+      for (std::size_t c = 0; c + 1 < columns; ++c) {
+        const std::size_t s = r * columns + c, east = s + 1, north = s + columns, far = north + 1;
+        if (!known(s) || !known(far)) continue;
+        if (known(east)) features.insert({at(s, 0), at(east, 0), at(far, 0), at(s, 1), at(east, 2), at(s, 3), at(s, 4)});
+        if (known(north)) features.insert({at(s, 0), at(north, 0), at(far, 0), at(s, 2), at(north, 1), at(s, 3), at(s, 5)});
+      }
     }
-    return true;
+    return features;
   }
 
   Real height(const Terrain::Corners& c, Point p) const {
