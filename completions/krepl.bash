@@ -2,7 +2,7 @@
 
 _krepl() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  local verbs="buffer profile terrain verify view" verb= word
+  local verbs="buffer profile terrain height verify view" verb= word
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case " $verbs " in *" $word "*) verb=$word; break ;; esac
   done

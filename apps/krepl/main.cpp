@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   krepl::app::add_buffer_verb(program, session);
   krepl::app::add_profile_verb(program, session);
   krepl::app::add_terrain_verb(program, session);
+  krepl::app::add_height_verb(program, session);
   krepl::app::add_verify_verb(program, session);
   krepl::app::add_view_verb(program, session);
   add_footer(program);

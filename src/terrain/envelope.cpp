@@ -244,7 +244,27 @@ void Envelope::section(bool vertical, double at, double from, double to, Index s
   ++counters_.lines;
   out_ = &out;
   stack_.assign(candidates.begin(), candidates.end());
+  const std::size_t before = out.size();
   section(Line{vertical, at}, from, start, to, end, 0, 0);
+  drop_slivers(Line{vertical, at}, start, before, out);
+}
+
+/// Where patches are equally high along a curve, rounding alone decides what shows between them.
+void Envelope::drop_slivers(const Line& line, Index start, std::size_t first, std::vector<Crossing>& crossings) const {
+  std::size_t kept = first;
+  const auto label_before = [&](std::size_t i) { return i == first ? start : crossings[i - 1].after; };
+  for (std::size_t i = first; i < crossings.size(); ++i) {
+    crossings[kept] = crossings[i];
+    if (kept > first && crossings[kept].t - crossings[kept - 1].t < 8 * smallest_stretch_) {
+      --kept;
+      const Index before = label_before(kept), after = crossings[kept + 1].after;
+      if (before == after) continue;
+      crossings[kept].after = after;
+      crossings[kept].meeting = meeting(before, after, line.point(crossings[kept].t));
+    }
+    ++kept;
+  }
+  crossings.resize(kept);
 }
 
 /// stack_[first ..]: the candidates of the stretch around this one.

@@ -78,6 +78,7 @@ class Envelope {
  private:
   struct Line;
   void section(const Line& line, double t0, Index l0, double t1, Index l1, std::size_t first, int depth);
+  void drop_slivers(const Line& line, Index start, std::size_t first, std::vector<Crossing>& crossings) const;
   bool single_crossing(const Line& line, double t0, Index l0, double t1, Index l1) const;
   double locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& meeting) const;
   Point support_point(Index patch, Point mid, double size) const;

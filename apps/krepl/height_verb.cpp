@@ -1,0 +1,165 @@
+// krepl height: how high a ball comes to rest at given places.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include "input/place_reader.hpp"
+#include "krepl/drop_cutter.hpp"
+#include "output/atomic_file.hpp"
+#include "output/output_stream.hpp"
+#include "terrain_options.hpp"
+#include "verbs.hpp"
+
+namespace krepl::app {
+
+namespace {
+
+using Contact = DropCutter::Contact;
+
+constexpr std::size_t places_at_a_time = std::size_t{1} << 17;
+
+struct HeightOptions {
+  TerrainOptions terrain;
+  std::string radius, places, output;
+
+  std::string places_name() const { return places == "-" ? "standard input" : places; }
+  std::string output_name() const { return output == "-" ? "standard output" : output; }
+};
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+void append(std::string& text, double x) {
+  char digits[32];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, x == 0 ? 0.0 : x).ptr);  // no -0
+}
+
+const char* kind_name(Terrain::FeatureKind kind) {
+  switch (kind) {
+    case Terrain::FeatureKind::vertex: return "vertex";
+    case Terrain::FeatureKind::edge: return "edge";
+    case Terrain::FeatureKind::face: return "face";
+  }
+  return "";
+}
+
+/// How many places touch a vertex, an edge, a face, or nothing.
+using Counts = std::array<std::size_t, 4>;
+
+/// One row: x,y,h,kind,px,py,pz.
+void append_row(std::string& text, Point place, const Contact& contact, const Terrain& terrain, Counts& counts) {
+  append(text, place.x);
+  text += ',';
+  append(text, place.y);
+  if (!contact.touches()) {
+    ++counts[3];
+    text += ",,,,,\n";
+    return;
+  }
+  const Point3 origin = terrain.origin();
+  const Terrain::FeatureKind kind = terrain.feature_kind(contact.feature);
+  ++counts[std::size_t(kind)];
+  text += ',';
+  append(text, contact.height + origin.z);
+  text += ',';
+  text += kind_name(kind);
+  for (const double x : {contact.point.x + origin.x, contact.point.y + origin.y, contact.point.z + origin.z}) {
+    text += ',';
+    append(text, x);
+  }
+  text += '\n';
+}
+
+/// Fails before a long computation rather than after it, and leaves nothing in the result's place.
+Status check_target(const HeightOptions& options) {
+  if (output::is_stream_target(options.output)) return std::monostate{};
+  for (const std::string& input : {options.terrain.request.path, options.places}) {
+    std::error_code not_there;
+    if (std::filesystem::equivalent(options.output, input, not_there))
+      return Error{ErrorCode::usage, "is an input, which would be lost", "", "name another file for the result"};
+  }
+  Result<output::AtomicFile> file = output::AtomicFile::create(options.output);
+  if (!file) return file.error();
+  return std::monostate{};
+}
+
+/// Lowers the ball at all places and writes a row for each, portion by portion.
+Result<Counts> write_heights(const std::string& path, const DropCutter& cutter, const std::vector<Point>& places,
+                             const Context& context) {
+  Result<output::OutputStream> stream = output::OutputStream::open(path);
+  if (!stream) return stream.error();
+  Context quiet;
+  quiet.threads = context.threads, quiet.cancel = context.cancel;
+  const Point3 origin = cutter.terrain().origin();
+  std::vector<Point> local;
+  std::vector<Contact> contacts;
+  Counts counts{};
+  std::string text = "x,y,h,kind,px,py,pz\n";
+  for (std::size_t first = 0; first < places.size() && !stream->failed(); first += places_at_a_time) {
+    const std::size_t last = std::min(first + places_at_a_time, places.size());
+    local.clear();
+    for (std::size_t i = first; i < last; ++i) local.push_back({places[i].x - origin.x, places[i].y - origin.y});
+    contacts.resize(local.size());
+    if (Status done = cutter.at(local, contacts, quiet); !done) return done.error();
+    for (std::size_t i = first; i < last; ++i) append_row(text, places[i], contacts[i - first], cutter.terrain(), counts);
+    stream->write(text);
+    text.clear();
+    if (context.progress) context.progress(double(last) / double(places.size()));
+    if (context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
+  }
+  if (Status finished = stream->finish(); !finished) return finished.error();
+  return counts;
+}
+
+int run_height(const HeightOptions& options, Session& session) {
+  const Clock::time_point start = Clock::now();
+  const Result<double> radius = parse_radius(options.radius);
+  if (!radius) return session.fail("", radius.error());
+  const Result<input::TerrainRequest> request = terrain_request(options.terrain);
+  if (!request) return session.fail("", request.error());
+  if (options.places == "-" && request->path == "-")
+    return session.fail("", {ErrorCode::usage, "IN and --at are both standard input", "", "name a file for one of them"});
+  if (Status target = check_target(options); !target) return session.fail(options.output, target.error());
+
+  const Result<std::vector<Point>> places = input::read_places(options.places, session.context("reading"));
+  if (!places) return session.fail(options.places_name(), places.error());
+  const Result<input::TerrainFile> file = input::read_terrain(*request, session.context("reading"));
+  if (!file) return session.fail(options.terrain.name(), file.error());
+  tell_terrain(*file, options.terrain.name(), seconds_since(start), session);
+
+  const Clock::time_point building = Clock::now();
+  const Result<DropCutter> cutter = DropCutter::build(file->terrain, *radius, session.context("indexing"));
+  if (!cutter) return session.fail(options.terrain.name(), cutter.error());
+  session.detail(fmt::format("index      {:.3f} s", seconds_since(building)));
+  const Clock::time_point dropping = Clock::now();
+  const Result<Counts> counts = write_heights(options.output, *cutter, *places, session.context("dropping"));
+  if (!counts) return session.fail(options.output_name(), counts.error());
+  session.detail(fmt::format("drop       {:.3f} s, with writing", seconds_since(dropping)));
+  session.summary(fmt::format("{} places: {} on a face, {} on an edge, {} on a vertex, {} touch nothing; {:.3f} s",
+                              places->size(), (*counts)[2], (*counts)[1], (*counts)[0], (*counts)[3], seconds_since(start)),
+                  options.output == "-");
+  return 0;
+}
+
+}  // namespace
+
+void add_height_verb(CLI::App& program, Session& session) {
+  auto options = std::make_shared<HeightOptions>();
+  CLI::App* verb = program.add_subcommand("height", "How high a ball comes to rest at given places, and what it touches");
+  add_terrain_options(*verb, options->terrain);
+  verb->add_option("--radius", options->radius, "Radius of the ball, in the unit of the coordinates")
+      ->required()->type_name("R");
+  verb->add_option("--at", options->places, "Places: CSV with columns x and y (others are ignored), or -")
+      ->required()->type_name("PTS.csv");
+  verb->add_option("-o,--output", options->output, "Result: CSV with columns x,y,h,kind,px,py,pz, or -")
+      ->required()->type_name("OUT.csv");
+  session.add_common_options(*verb);
+  session.on_run(*verb, [options, &session] { return run_height(*options, session); });
+}
+
+}  // namespace krepl::app
