@@ -15,7 +15,7 @@ namespace krepl::app {
 
 namespace {
 
-std::atomic<bool> interrupted{false};
+std::atomic<bool> interrupted{false}, reported{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
 int wake_pipe[2] = {-1, -1};
 
@@ -37,7 +37,7 @@ void watch() {
   }
   ::poll(nullptr, 0, grace_milliseconds);
   output::abandon_temporary_files();
-  std::fputs(::isatty(STDERR_FILENO) != 0 ? "\r\033[Kkrepl: interrupted\n" : "krepl: interrupted\n", stderr);
+  if (!reported.exchange(true)) std::fputs(::isatty(STDERR_FILENO) != 0 ? "\r\033[Kkrepl: interrupted\n" : "krepl: interrupted\n", stderr);
   ::_exit(interrupted_status);
 }
 
@@ -50,6 +50,8 @@ void handle(int signal_number) {
 }
 
 }  // namespace
+
+void interrupt_is_reported() { reported.store(true); }
 
 const std::atomic<bool>& watch_for_interrupts() {
   signal(SIGPIPE, SIG_IGN);

@@ -10,6 +10,9 @@ namespace krepl::app {
 /// the write instead of the end of the process. Called once, before other threads start.
 const std::atomic<bool>& watch_for_interrupts();
 
+/// The caller is about to say that the work was interrupted: the watcher then does not say so again.
+void interrupt_is_reported();
+
 constexpr int interrupted_status = 130;
 
 }  // namespace krepl::app

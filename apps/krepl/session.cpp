@@ -81,6 +81,7 @@ void Session::summary(std::string_view text, bool result_on_stdout) {
 
 int Session::fail(std::string_view file, const Error& error) {
   finish_progress();
+  if (interrupted() || error.code == ErrorCode::cancelled) interrupt_is_reported();
   fmt::print(stderr, "krepl: {}{}{}\n", file, file.empty() ? "" : ": ", error.text());
   if (interrupted() || error.code == ErrorCode::cancelled) return interrupted_status;
   return error.code == ErrorCode::usage ? 2 : 1;
