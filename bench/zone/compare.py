@@ -21,9 +21,9 @@ NAMES = {"krepl": "krepl", "geos": "GEOS", "clipper": "Clipper", "boost": "Boost
 BOOST_LIMIT = 20_000  # vertices; above, Boost never finishes within the time limit
 
 
-def run_case(program, limit, engine, path, segments, radius, chord, threads):
+def run_case(program, limit, engine, path, segments, radius, chord, threads, runs):
     """The measurement, or {"failed": why, "seconds": ..., "peak": bytes}."""
-    arguments = [str(program), engine, str(path), str(segments), repr(radius), repr(chord), str(threads)]
+    arguments = [str(program), engine, str(path), str(segments), repr(radius), repr(chord), str(threads), str(runs)]
     most = int(0.85 * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
     child = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (most, most)))
@@ -47,10 +47,10 @@ class Bench:
         self.program, self.limit = arguments.program.resolve(), arguments.limit
         self.log = open(arguments.log, "w")
 
-    def case(self, engine, path, radius, chord=1e-3, segments=0, threads=1):
+    def case(self, engine, path, radius, chord=1e-3, segments=0, threads=1, runs=1):
         print(f"  {engine:8} {path.stem:34} n={segments or 'all':>8} R={radius:<4g} chord={chord:g} threads={threads}",
               file=sys.stderr, flush=True)
-        result = run_case(self.program, self.limit, engine, path, segments, radius, chord, threads)
+        result = run_case(self.program, self.limit, engine, path, segments, radius, chord, threads, runs)
         record = {"engine": engine, "data": path.stem, "radius_lengths": radius, "chord": chord, "threads": threads}
         self.log.write(json.dumps({**record, **result}) + "\n")
         self.log.flush()
@@ -117,8 +117,8 @@ def growth(bench, path, sizes):
     rows = []
     for radius in RADII:
         for size in sizes:
-            one = bench.case("krepl", path, radius, segments=size)
-            two = bench.case("krepl", path, radius, segments=size, threads=2)
+            one = bench.case("krepl", path, radius, segments=size, runs=4)
+            two = bench.case("krepl", path, radius, segments=size, threads=2, runs=4)
             rows.append(growth_row(radius, size, one, two))
     return rows
 
@@ -150,7 +150,8 @@ def write_tables(out, about, speed, answers, grown, limit):
         out.write("Do they answer the same question? Area and holes; for the peers the relative difference from krepl's area.\n\n")
         out.write(table(["data (vertices)", "R in mean lengths", "krepl: area, holes", *peers], answers) + "\n\n")
     if grown:
-        out.write("Growth: the world's rivers cut or repeated to n segments, wall time; bytes are the peak of the operation.\n\n")
+        out.write("Growth: the world's rivers cut or repeated to n segments, wall time of the fastest of at least four runs; bytes "
+                  "are the peak of the operation.\n\n")
         out.write(table(["R in mean lengths", "segments", "µs/segment, 1 thread", "2 threads", "speed-up",
                          "bytes/segment, 1 thread", "2 threads"], grown) + "\n")
 

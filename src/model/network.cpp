@@ -49,7 +49,9 @@ struct Welded {
 /// Sorts the input vertices along the Hilbert curve and gives equal ones the same number.
 Welded weld(const std::vector<Point>& points, const Grid& grid, const Context& context) {
   const std::size_t n = points.size();
-  std::vector<std::uint64_t> order(n);
+  std::vector<std::uint64_t> order;
+  kernel::reserve_pages(context, order, n);
+  order.resize(n);
   Context quiet;
   quiet.threads = context.threads;
   kernel::parallel_blocks(quiet, n, block_size, [&](std::size_t first, std::size_t last) {
@@ -58,8 +60,9 @@ Welded weld(const std::vector<Point>& points, const Grid& grid, const Context& c
   kernel::radix_sort(order, 32, context);
 
   Welded w;
-  w.vertices.reserve(n);
-  w.position.reserve(n);
+  kernel::reserve_pages(context, w.vertices, n);
+  kernel::reserve_pages(context, w.position, n);
+  kernel::reserve_pages(context, w.chain, n);
   w.chain.resize(n);
   const auto before = [&](std::uint64_t i, std::uint64_t j) {
     const Point p = points[std::uint32_t(i)], q = points[std::uint32_t(j)];

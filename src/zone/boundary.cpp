@@ -281,7 +281,7 @@ std::vector<Piece> uncovered_pieces(const Instance& instance, const SiteTree& tr
   if (!done) return all;
   std::size_t total = 0;
   for (const Part& p : parts) total += p.pieces.size();
-  all.reserve(total);
+  kernel::reserve_pages(context, all, total);
   for (Part& p : parts) {
     all.insert(all.end(), p.pieces.begin(), p.pieces.end());
     add(counters, p.counters);

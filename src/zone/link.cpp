@@ -33,7 +33,9 @@ Error unmatched(const Instance& instance, const Piece& p) {
 /// For each piece the one that continues it: on the element `to`, coming from `element`.
 Result<std::vector<Index>> successors(const Instance& instance, const std::vector<Piece>& pieces, const Context& context) {
   const std::vector<Index> first = pieces_by_element(instance, pieces);
-  std::vector<Index> next(pieces.size(), none);
+  std::vector<Index> next;
+  kernel::reserve_pages(context, next, pieces.size());
+  next.resize(pieces.size(), none);
   Context quiet;
   quiet.threads = context.threads;
   kernel::parallel_blocks(quiet, pieces.size(), block, [&](std::size_t from, std::size_t to) {
@@ -59,7 +61,7 @@ Result<Rings> link_pieces(const Instance& instance, const std::vector<Piece>& pi
   std::vector<Index>& next = *linked;
   Rings rings;
   std::vector<Index> order;  // pieces, ring by ring
-  order.reserve(pieces.size());
+  kernel::reserve_pages(context, order, pieces.size());
   for (Index i = 0; i < pieces.size(); ++i) {
     if (next[i] == none) continue;
     for (Index j = i; next[j] != none;) {
@@ -71,6 +73,8 @@ Result<Rings> link_pieces(const Instance& instance, const std::vector<Piece>& pi
     rings.begin.push_back(Index(order.size()));
   }
   next = {};
+  kernel::reserve_pages(context, rings.element, pieces.size());
+  kernel::reserve_pages(context, rings.vertex, pieces.size());
   rings.element.resize(pieces.size());
   rings.vertex.resize(pieces.size());
   Context quiet;
