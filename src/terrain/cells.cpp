@@ -196,7 +196,7 @@ bool Cells::settle_arc(const Box& box, bool smallest) {
 bool Cells::is_wall_of(const Turn& turn, Index label) const {
   if (turn.meeting != Meeting::rim || label == none || (turn.before != label && turn.after != label)) return false;
   const Index other = turn.before == label ? turn.after : turn.before;
-  return other == none || envelope_.clamped_height(label, turn.at) > envelope_.clamped_height(other, turn.at);
+  return other == none || envelope_.border_height(label, turn.at) > envelope_.border_height(other, turn.at);
 }
 
 /// True if the curves of both turns are sides of one patch, which lies between them.

@@ -24,6 +24,7 @@ Envelope::Envelope(const PatchSet& patches, double scale, SurfaceCounters& count
       smallest_cell_(0x1p-36 * scale),
       smallest_stretch_(0x1p-50 * scale),
       noise_(0x1p-49 * scale),
+      rim_width_(2 * tolerance_),
       counters_(counters) {}
 
 Index Envelope::winner(Point p, std::span<const Index> candidates) const {
@@ -307,6 +308,18 @@ void Envelope::section(const Line& line, double t0, Index l0, double t1, Index l
   stack_.resize(begin);
 }
 
+/// True if the domain of the first label, which holds t0, ends before that of the second begins, which holds t1.
+bool Envelope::gap(const Line& line, double t0, Index l0, double t1, Index l1) const {
+  const auto last_within = [&](double inside, double outside, Index l) {
+    for (int i = 0; i < 60 && std::fabs(outside - inside) > tolerance_ / 4; ++i) {
+      const double m = inside + (outside - inside) / 2;
+      (patches_.contains(l, line.point(m)) ? inside : outside) = m;
+    }
+    return inside;
+  };
+  return last_within(t1, t0, l1) - last_within(t0, t1, l0) > 4 * tolerance_;
+}
+
 /// True if the two labels, the only ones left, certainly change once. Concave heights have descending derivatives.
 bool Envelope::single_crossing(const Line& line, double t0, Index l0, double t1, Index l1) const {
   if (l0 == none || l1 == none) return t1 - t0 < patches_.radius() / 16;
@@ -316,8 +329,8 @@ bool Envelope::single_crossing(const Line& line, double t0, Index l0, double t1,
     const Gradient g = patches_.gradient(l, at);
     return line.vertical ? g.y : g.x;
   };
-  const bool whole = patches_.contains(l0, p) && patches_.contains(l0, q) && patches_.contains(l1, p) && patches_.contains(l1, q);
-  if (!whole) return t1 - t0 < patches_.radius() / 16;
+  const bool first_covers = patches_.contains(l0, q), second_covers = patches_.contains(l1, p);
+  if (!first_covers || !second_covers) return t1 - t0 < patches_.radius() / 16 && (first_covers || second_covers || !gap(line, t0, l0, t1, l1));
   const Range first{slope(l0, q), slope(l0, p)}, second{slope(l1, q), slope(l1, p)};
   return (second - first).excludes_zero();
 }
@@ -327,19 +340,36 @@ double Envelope::clamped_height(Index i, Point p) const {
   return h > below_everything ? h : rim_height(i, p);
 }
 
+Gradient Envelope::rim_gradient(Index i) const {
+  const Patch& f = patches_[i];
+  return f.kind == FeatureKind::edge ? Gradient{f.m * f.gx, f.m * f.gy} : Gradient{0, 0};
+}
+
 double Envelope::rim_height(Index i, Point p) const {
   const Patch& f = patches_[i];
   if (f.kind == FeatureKind::vertex) return f.z;
   return f.z + f.m * ((p.x - f.at.x) * f.gx + (p.y - f.at.y) * f.gy);
 }
 
+const Bound* Envelope::rim_at(Index i, Point p) const {
+  for (const Bound& b : patches_.bounds(i)) {
+    if (!b.rim) continue;
+    const double value = std::fabs(b.value(p, patches_.square_radius()));
+    if (value <= rim_width_ * (b.type == Bound::Type::disc ? 2 * patches_.radius() : 1)) return &b;
+  }
+  return nullptr;
+}
+
+double Envelope::border_height(Index i, Point p) const { return rim_at(i, p) != nullptr ? rim_height(i, p) : clamped_height(i, p); }
+
 Meeting Envelope::meeting(Index a, Index b, Point p) const {
   if (a == none || b == none) return Meeting::rim;
   if (patches_.seam(a, b) != nullptr) return Meeting::seam;
-  const double difference = clamped_height(a, p) - clamped_height(b, p);
-  const Gradient g = patches_.gradient(a, p), h = patches_.gradient(b, p);
-  const double steep = 1 + std::hypot(g.x - h.x, g.y - h.y);
-  return std::fabs(difference) <= 64 * tolerance_ * steep ? Meeting::valley : Meeting::rim;
+  const bool a_ends = rim_at(a, p) != nullptr, b_ends = rim_at(b, p) != nullptr;
+  if (!a_ends && !b_ends) return Meeting::valley;
+  const double difference = (a_ends ? rim_height(a, p) : clamped_height(a, p)) - (b_ends ? rim_height(b, p) : clamped_height(b, p));
+  const Gradient g = a_ends ? rim_gradient(a) : patches_.gradient(a, p), h = b_ends ? rim_gradient(b) : patches_.gradient(b, p);
+  return std::fabs(difference) <= 64 * tolerance_ * (1 + std::hypot(g.x - h.x, g.y - h.y)) ? Meeting::valley : Meeting::rim;
 }
 
 /// The place of the one change from l0 to l1, by bisection on the function that changes its sign there, faster by the secant.

@@ -69,16 +69,22 @@ class Envelope {
   Range derivative_range(Index patch, const Box& box, Gradient direction) const;
   /// Height at which a patch ends in a wall: of the points that a ball touches with a horizontal normal.
   double rim_height(Index patch, Point p) const;
+  Gradient rim_gradient(Index patch) const;
   /// Gradient of a bound's function; steep but finite near the rim.
   Gradient bound_gradient(const Bound& bound, Point p) const;
   /// Of extended_height, but continued where the patch's surface has ended.
   double clamped_height(Index patch, Point p) const;
+  /// The side of the patch's domain beside p that ends in a wall; null if there is none so near.
+  const Bound* rim_at(Index patch, Point p) const;
+  /// Height at p, a place on the border of the patch's domain: at a rim that of the rim.
+  double border_height(Index patch, Point p) const;
   Meeting meeting(Index a, Index b, Point p) const;
 
  private:
   struct Line;
   void section(const Line& line, double t0, Index l0, double t1, Index l1, std::size_t first, int depth);
   void drop_slivers(const Line& line, Index start, std::size_t first, std::vector<Crossing>& crossings) const;
+  bool gap(const Line& line, double t0, Index l0, double t1, Index l1) const;
   bool single_crossing(const Line& line, double t0, Index l0, double t1, Index l1) const;
   double locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& meeting) const;
   Point support_point(Index patch, Point mid, double size) const;
@@ -90,7 +96,7 @@ class Envelope {
   GradientRange sphere_gradient(Point at, const Box& box, double factor) const;
 
   const PatchSet& patches_;
-  double tolerance_, smallest_cell_, smallest_stretch_, noise_;
+  double tolerance_, smallest_cell_, smallest_stretch_, noise_, rim_width_;
   SurfaceCounters& counters_;
   std::vector<Index> stack_;
   std::vector<Crossing>* out_ = nullptr;

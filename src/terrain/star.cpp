@@ -98,13 +98,9 @@ std::optional<Point> Cells::star_point(const Box& box) const {
       }
     }
   }
-  const auto rim_gradient = [&](Index l) {
-    const Patch& f = patches[l];
-    return f.kind == Terrain::FeatureKind::edge ? Gradient{f.m * f.gx, f.m * f.gy} : Gradient{0, 0};
-  };
   const auto gradient = [&](const Condition& c, Point p) {
     if (c.bound != nullptr) return envelope_.bound_gradient(*c.bound, p);
-    const Gradient g = patches.gradient(c.a, p), h = c.at_rim ? rim_gradient(c.b) : patches.gradient(c.b, p);
+    const Gradient g = patches.gradient(c.a, p), h = c.at_rim ? envelope_.rim_gradient(c.b) : patches.gradient(c.b, p);
     return Gradient{g.x - h.x, g.y - h.y};
   };
   const auto value = [&](const Condition& c, Point p) {
@@ -177,7 +173,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
   if (c.bound == nullptr || d.bound == nullptr) {
     const auto range = [&](const Condition& k) {
       if (k.bound != nullptr) return envelope_.bound_gradient_range(*k.bound, box);
-      const Gradient wall = k.at_rim ? rim_gradient(k.b) : Gradient{0, 0};
+      const Gradient wall = k.at_rim ? envelope_.rim_gradient(k.b) : Gradient{0, 0};
       const GradientRange a = envelope_.gradient_range(k.a, box);
       const GradientRange b = k.at_rim ? GradientRange{{wall.x, wall.x}, {wall.y, wall.y}} : envelope_.gradient_range(k.b, box);
       return GradientRange{a.x - b.x, a.y - b.y};

@@ -127,7 +127,7 @@ class ChainWriter {
     other_ = label[0] == none ? label[0] : label[1];
     if (crossing.meeting != Meeting::rim) return;
     const Point p = cells_.place(line, crossing);
-    if (other_ != none && cells_.envelope().clamped_height(other_, p) > cells_.envelope().clamped_height(upper_, p)) {
+    if (other_ != none && cells_.envelope().border_height(other_, p) > cells_.envelope().border_height(upper_, p)) {
       std::swap(upper_, other_);
     }
     for (Index& f : chain.feature) {
