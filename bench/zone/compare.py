@@ -5,41 +5,19 @@ of bench/README.md: krepl beside its peers on one thread, how far their answers 
 import argparse
 import itertools
 import json
-import os
-import platform
-import resource
-import subprocess
 import sys
-import threading
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from cases import machine, run_case, table  # noqa: E402
 
 FILES = ["streets_tempe", "roads_roxel_epsg32632_mm", "river_new_hope_epsg32617_mm", "river_methow",
          "roads_monaco_epsg32632_mm", "ne_10m_rivers_europe_epsg3035_m"]
 RADII = [1, 10, 100]
 PEERS = [("geos", 1e-3), ("geos", 1e-6), ("clipper", 1e-3), ("clipper", 1e-6), ("boost", 1e-3)]
 NAMES = {"krepl": "krepl", "geos": "GEOS", "clipper": "Clipper", "boost": "Boost"}
+PACKAGES = ["libgeos-dev", "libpolyclipping-dev", "libboost-dev", "g++", "libtbb-dev"]
 BOOST_LIMIT = 20_000  # vertices; above, Boost never finishes within the time limit
-
-
-def run_case(program, limit, engine, path, segments, radius, chord, threads, runs):
-    """The measurement, or {"failed": why, "seconds": ..., "peak": bytes}."""
-    arguments = [str(program), engine, str(path), str(segments), repr(radius), repr(chord), str(threads), str(runs)]
-    most = int(0.85 * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
-    child = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (most, most)))
-    late = threading.Event()
-    timer = threading.Timer(limit, lambda: (late.set(), child.kill()))
-    timer.start()
-    output, complaint = child.stdout.read(), child.stderr.read()
-    _, status, usage = os.wait4(child.pid, 0)
-    timer.cancel()
-    child.returncode = os.waitstatus_to_exitcode(status)
-    peak = 1024 * usage.ru_maxrss
-    if child.returncode == 0:
-        return {**json.loads(output), "peak": peak}
-    reason = f"> {limit:g} s" if late.is_set() else "failed"
-    print(f"    {reason}: {complaint.strip()}", file=sys.stderr)
-    return {"failed": reason, "peak": peak}
 
 
 class Bench:
@@ -50,7 +28,7 @@ class Bench:
     def case(self, engine, path, radius, chord=1e-3, segments=0, threads=1, runs=1):
         print(f"  {engine:8} {path.stem:34} n={segments or 'all':>8} R={radius:<4g} chord={chord:g} threads={threads}",
               file=sys.stderr, flush=True)
-        result = run_case(self.program, self.limit, engine, path, segments, radius, chord, threads, runs)
+        result = run_case(self.program, self.limit, [engine, path, segments, repr(radius), repr(chord), threads, runs])
         record = {"engine": engine, "data": path.stem, "radius_lengths": radius, "chord": chord, "threads": threads}
         self.log.write(json.dumps({**record, **result}) + "\n")
         self.log.flush()
@@ -123,22 +101,6 @@ def growth(bench, path, sizes):
     return rows
 
 
-def table(head, rows):
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
-
-
-def machine():
-    model = next((l.split(":", 1)[1].strip() for l in open("/proc/cpuinfo") if l.startswith("model name")), "unknown")
-    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
-    versions = []
-    for package in ("libgeos-dev", "libpolyclipping-dev", "libboost-dev", "g++", "libtbb-dev"):
-        query = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version}", package], capture_output=True, text=True)
-        versions.append(query.stdout or f"{package}: not from Debian")
-    return (f"Machine: {model}, {os.cpu_count()} logical cores, {memory:.0f} GiB, {platform.system()} {platform.release()}; "
-            f"load at the start {os.getloadavg()[0]:.1f}. {'; '.join(versions)}.")
-
-
 def write_tables(out, about, speed, answers, grown, limit):
     peers = [f"{NAMES[engine]} {chord:g} R" for engine, chord in PEERS]
     out.write(f"{about}\n\n")
@@ -167,7 +129,7 @@ def main():
     parser.add_argument("--log", type=Path, required=True, help="every measurement as a line of JSON")
     parser.add_argument("--output", type=Path, required=True, help="the tables in Markdown")
     arguments = parser.parse_args()
-    about, bench = machine(), Bench(arguments)
+    about, bench = machine(PACKAGES), Bench(arguments)
     paths = [p for p in (arguments.data / f"{name}.wkt" for name in FILES) if p.exists()]
     for name in sorted(set(FILES) - {p.stem for p in paths}):
         print(f"compare.py: {name} is not in {arguments.data} and left out", file=sys.stderr)

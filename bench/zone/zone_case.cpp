@@ -1,16 +1,13 @@
 // One measurement in one process; see main() for the arguments.
 // Prints one JSON object. compare.py starts it with a time limit, chooses the cases and makes the table.
-#include <malloc.h>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
-#include <fstream>
 #include <numbers>
 #include <string>
 
+#include "../measure.hpp"
 #include "engines.hpp"
 
 namespace bench {
@@ -20,45 +17,6 @@ int chords_of_circle(double radius, double chord_error) {
 }
 
 namespace {
-
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
-
-/// A field of /proc/self/status in bytes.
-double memory(const std::string& field) {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with(field + ":")) return 1024 * std::strtod(line.c_str() + field.size() + 1, nullptr);
-  return 0;
-}
-
-struct Measured {
-  double cpu = INFINITY, wall = INFINITY;  ///< of the fastest run
-  double bytes = 0;                        ///< peak above what was in memory before the first run
-  int runs = 0;
-};
-
-/// The fastest of up to five runs within about ten seconds, but of `least` at least; memory is that of the first run.
-std::optional<Measured> measure(Engine& engine, int least) {
-  malloc_trim(0);  // what reading the file freed would hide the operation's first allocations
-  std::ofstream("/proc/self/clear_refs") << "5";  // the peak so far (reading the file) does not count
-  const double before = memory("VmRSS");
-  Measured measured;
-  for (double spent = 0; measured.runs < least || (measured.runs < 5 && spent < 10);) {
-    const auto wall_start = std::chrono::steady_clock::now();
-    const double cpu_start = cpu_seconds();
-    if (!engine.run()) return std::nullopt;
-    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
-    measured.cpu = std::min(measured.cpu, cpu_seconds() - cpu_start);
-    measured.wall = std::min(measured.wall, wall);
-    if (measured.runs++ == 0) measured.bytes = memory("VmHWM") - before;
-    spent += wall;
-  }
-  return measured;
-}
 
 std::unique_ptr<Engine> make(const std::string& name, const Task& task) {
   if (name == "krepl") return make_krepl(task);
@@ -81,7 +39,7 @@ int run(const std::string& name, const std::string& path, std::size_t segments, 
   const Task task{*lines, radius * length, chord * radius * length, threads};
   const auto engine = make(name, task);
   if (!engine) return std::fprintf(stderr, "zone_case: this build has no engine %s\n", name.c_str()), 3;
-  const auto measured = measure(*engine, least_runs);
+  const auto measured = measure([&] { return engine->run(); }, least_runs);
   if (!measured) return std::fprintf(stderr, "zone_case: %s failed\n", name.c_str()), 1;
   const Outcome outcome = engine->outcome();
   std::printf("{\"segments\": %zu, \"vertices\": %zu, \"radius\": %.17g, \"mean_length\": %.17g, \"cpu\": %.9g, "
