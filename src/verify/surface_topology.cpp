@@ -53,6 +53,7 @@ bool twins_and_next(const SubdivisionFile& file, Rules& rules) {
   return rules.ok();
 }
 
+/// Seen from above: on a rim a vertex has the height of the upper side, far from the end of an edge that meets the wall below.
 void choose_forward(SurfaceCase& surface) {
   const SubdivisionFile& file = surface.file;
   surface.forward.assign(file.edges.size(), SurfaceCase::none);
@@ -61,7 +62,10 @@ void choose_forward(SurfaceCase& surface) {
     Index& forward = surface.forward[e];
     if (forward == SurfaceCase::none) forward = Index(h);  // the second one, unless the first fits no worse
     const Space<double> start = surface.point(file.edges[e].first);
-    const auto off = [&](Index i) { return square(Space<double>(file.vertices[file.half_edges[i].origin]) - start); };
+    const auto off = [&](Index i) {
+      const Space<double> d = Space<double>(file.vertices[file.half_edges[i].origin]) - start;
+      return d.x * d.x + d.y * d.y;
+    };
     if (off(Index(h)) <= off(forward)) forward = Index(h);
   }
 }

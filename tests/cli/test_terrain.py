@@ -355,6 +355,24 @@ class Terrain(support.CliTest):
         foot = [p for t in mesh for p in t if math.dist(p[:2], (7, 7)) < 1 + 1e-6 and p[0] > 7 and p[1] > 7]
         self.assertEqual({round(p[2], 9) for p in foot if abs(math.dist(p[:2], (7, 7)) - 1) < 1e-6}, {1.0, 10.0})
 
+    def test_verify_of_seams_that_end_below_walls_of_different_height(self):
+        # Floors between a high wall and two low ones. The seams along the diagonals and borders of the floors end far below their
+        # vertices, which have the heights of the walls.
+        facets = []
+        profile = [(0, 5), (2, 5), (2, 0), (8, 0), (8, 20), (10, 20), (10, 0), (16, 0), (16, 5), (18, 5)]
+        for (x0, z0), (x1, z1) in zip(profile, profile[1:]):
+            a, b, c, d = (x0, 0, z0), (x1, 0, z1), (x1, 6, z1), (x0, 6, z0)
+            facets += [(a, b, c), (a, c, d)]
+        self.write("walls.off", f"OFF\n{3 * len(facets)} {len(facets)} 0\n" +
+                   "".join(f"{x} {y} {z}\n" for facet in facets for x, y, z in facet) +
+                   "".join(f"3 {3 * i} {3 * i + 1} {3 * i + 2}\n" for i in range(len(facets))))
+        self.terrain("out.json", name="walls.off", radius=1)
+        s = json.loads(self.text("out.json"))
+        ends = [[s["vertices"][s["half_edges"][h][0]][2] for h in (2 * e, 2 * e + 1)]
+                for e, edge in enumerate(s["edges"]) if edge["kind"] == "seam" and all(p[2] == 1 for p in edge["points"])]
+        self.assertEqual(list(map(sorted, ends)), [[5, 20]] * 6)
+        self.succeed("verify", "out.json", "--against", "walls.off")
+
     # --- refusals ---
 
     def test_refusals(self):
