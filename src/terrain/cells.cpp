@@ -3,6 +3,20 @@
 #include <algorithm>
 
 namespace krepl::terrain {
+namespace {
+
+double distance(Point p, Point a, Point b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+  const double t = square > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0, 1.0) : 0.0;
+  return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+}
+
+/// Of two segments whose ends lie on the border of a box, not crossing each other.
+double distance(Point a, Point b, Point c, Point d) {
+  return std::min({distance(a, c, d), distance(b, c, d), distance(c, a, b), distance(d, a, b)});
+}
+
+}  // namespace
 
 Cells::Cells(const PatchSet& patches, double scale, SurfaceCounters& counters, const Context& context)
     : envelope_(patches, scale, counters), counters_(counters), context_(context) {}
@@ -105,23 +119,56 @@ bool Cells::subdivide(const Cell& cell, std::size_t first, int depth) {
   return done;
 }
 
+/// Between the corners of patches in the cell, which are vertices mostly, or else in the middle of the longer sides.
+Cells::Cut Cells::cut(const Box& box, std::span<const Index> candidates) {
+  const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
+  Cut best{width >= height, 0};
+  best.at = best.vertical ? box.middle().x : box.middle().y;
+  if (candidates.size() > 24) return best;
+  for (std::vector<double>& t : corner_place_) t.clear();
+  for (const Index c : candidates) {
+    for (const Point p : envelope_.patches().corners(c)) {
+      if (!(p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y)) continue;
+      corner_place_[0].push_back(p.x);
+      corner_place_[1].push_back(p.y);
+    }
+  }
+  if (corner_place_[0].size() < 2) return best;
+  // The widest gap, but none that makes long thin cells. Half way between two corners is often a line of symmetry, along which
+  // curves run.
+  constexpr double uneven = 0.4641;
+  double widest = std::max(width, height) / 32;
+  for (const bool vertical : {true, false}) {
+    const double low = vertical ? box.low.x : box.low.y, high = vertical ? box.high.x : box.high.y;
+    const double across = vertical ? height : width;
+    std::vector<double>& t = corner_place_[vertical ? 0 : 1];
+    std::sort(t.begin(), t.end());
+    const auto consider = [&](double gap, double at) {
+      if (gap > widest && 8 * std::min(at - low, high - at) > across) widest = gap, best = {vertical, at};
+    };
+    for (std::size_t i = 1; i < t.size(); ++i) consider(t[i] - t[i - 1], t[i - 1] + uneven * (t[i] - t[i - 1]));
+  }
+  return best;
+}
+
 bool Cells::split(const Cell& cell, std::size_t first, int depth) {
   const Box& box = cell.box;
-  const bool vertical = box.high.x - box.low.x >= box.high.y - box.low.y;
+  const Cut where = cut(box, {stack_.data() + first, stack_.size() - first});
+  const bool vertical = where.vertical;
   const Side &low_side = cell.side[vertical ? 0 : 3], &high_side = cell.side[vertical ? 2 : 1];
   const double low = vertical ? box.low.x : box.low.y, high = vertical ? box.high.x : box.high.y;
-  const double at = low + (high - low) / 2;
+  const double at = where.at;
   if (!(at > low && at < high) || depth > 200) {
     failed_at_ = box.middle();
     return false;
   }
-  const auto cut = [&](const Side& s) {
+  const auto first_beyond = [&](const Side& s) {
     Index c = s.first;
     while (c < s.last && crossings_[c].t <= at) ++c;
     return c;
   };
   const auto label_at = [&](const Side& s, Index c) { return c == s.first ? s.label : crossings_[c - 1].after; };
-  const Index low_cut = cut(low_side), high_cut = cut(high_side);
+  const Index low_cut = first_beyond(low_side), high_cut = first_beyond(high_side);
   const Index start = label_at(low_side, low_cut), end = label_at(high_side, high_cut);
   found_.clear();
   envelope_.section(vertical, at, vertical ? box.low.y : box.low.x, vertical ? box.high.y : box.high.x, start, end,
@@ -230,6 +277,40 @@ bool Cells::wall_stays_above(const Turn& from, const Turn& to, const Turn& valle
   return true;
 }
 
+bool Cells::corner_in(Index patch, const Box& box) const {
+  if (patch == none) return false;
+  const double slack = envelope_.smallest_cell();
+  for (const Point c : envelope_.patches().corners(patch)) {
+    if (c.x >= box.low.x - slack && c.x <= box.high.x + slack && c.y >= box.low.y - slack && c.y <= box.high.y + slack) return true;
+  }
+  return false;
+}
+
+/// How far the curve from a turn to another place on it can be from its chord within the box; infinite if that is not known.
+///
+/// The function f that vanishes along it is zero at both ends, so where its derivative along the chord is within w of itself,
+/// |f| <= w / 4 times the chord's length; across it, f changes by at least its least derivative there.
+double Cells::bend(const Turn& turn, Point end, const Box& box) const {
+  const double dx = end.x - turn.at.x, dy = end.y - turn.at.y, length = std::sqrt(dx * dx + dy * dy);
+  if (!(length > 0)) return 0;
+  const Gradient along{dx / length, dy / length}, across{-along.y, along.x};
+  Range a, b;
+  if (turn.meeting == Meeting::valley) {
+    a = envelope_.derivative_range(turn.before, box, along) - envelope_.derivative_range(turn.after, box, along);
+    b = envelope_.derivative_range(turn.before, box, across) - envelope_.derivative_range(turn.after, box, across);
+  } else {
+    const Bound* seam = envelope_.patches().seam(turn.before, turn.after);
+    if (seam == nullptr) return std::numeric_limits<double>::infinity();
+    if (seam->type == Bound::Type::line) return 0;
+    const GradientRange g = envelope_.bound_gradient_range(*seam, box);
+    const auto directed = [&](Gradient d) { return g.x * Range{d.x, d.x} + g.y * Range{d.y, d.y}; };
+    a = directed(along);
+    b = directed(across);
+  }
+  if (!b.excludes_zero()) return std::numeric_limits<double>::infinity();
+  return (a.high - a.low) * length / (4 * std::min(std::fabs(b.low), std::fabs(b.high)));
+}
+
 /// Curves side by side: each pair of labels meets at exactly two turns, which nest like brackets.
 bool Cells::settle_strips(const Box& box) {
   const std::size_t n = turns_.size();
@@ -253,23 +334,24 @@ bool Cells::settle_strips(const Box& box) {
       if (int(j) != mate[i] && in1 != in2) return false;
     }
   }
-  // No two of the curves may meet. Two sides of one patch meet only at its corners.
+  // No two of the curves may meet.
   const auto apart = [&](std::size_t i, std::size_t j) {
-    const Turn &s = turns_[i], &t = turns_[j];
-    if (s.meeting == Meeting::rim && t.meeting == Meeting::valley) return wall_stays_above(s, turns_[std::size_t(mate[i])], t);
-    if (t.meeting == Meeting::rim && s.meeting == Meeting::valley) return wall_stays_above(t, turns_[std::size_t(mate[j])], s);
+    const Turn &s = turns_[i], &t = turns_[j], &s_end = turns_[std::size_t(mate[i])], &t_end = turns_[std::size_t(mate[j])];
     Index patch = none;
-    if (!sides_of_one_patch(s, t, patch)) return false;
-    const double slack = envelope_.smallest_cell();
-    for (const Point c : envelope_.patches().corners(patch)) {
-      if (c.x >= box.low.x - slack && c.x <= box.high.x + slack && c.y >= box.low.y - slack && c.y <= box.high.y + slack) return false;
+    if (sides_of_one_patch(s, t, patch)) return !corner_in(patch, box);  // they meet only there
+    if (s.meeting == Meeting::rim && t.meeting == Meeting::valley) return wall_stays_above(s, s_end, t);
+    if (t.meeting == Meeting::rim && s.meeting == Meeting::valley) return wall_stays_above(t, t_end, s);
+    if (s.meeting == Meeting::rim || t.meeting == Meeting::rim) return false;
+    for (const Turn* turn : {&s, &t}) {
+      if (turn->meeting == Meeting::seam && (corner_in(turn->before, box) || corner_in(turn->after, box))) return false;
     }
-    return true;
+    const double room = distance(s.at, s_end.at, t.at, t_end.at);
+    return room > 0 && bend(s, s_end.at, box) + bend(t, t_end.at, box) < room;
   };
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const Turn &s = turns_[i], &t = turns_[j];
-      if (int(j) == mate[i]) continue;
+      if (int(j) == mate[i] || int(i) > mate[i] || int(j) > mate[j]) continue;
       const bool share = s.before == t.before || s.before == t.after || s.after == t.before || s.after == t.after;
       if (share && !apart(i, j)) return false;
     }

@@ -86,7 +86,13 @@ class Cells {
     Point at;
   };
 
+  struct Cut {
+    bool vertical;
+    double at;
+  };
+
   bool subdivide(const Cell& cell, std::size_t first, int depth);
+  Cut cut(const Box& box, std::span<const Index> candidates);
   bool split(const Cell& cell, std::size_t first, int depth);
   void walk(const Cell& cell);
   bool settle(const Cell& cell, std::span<const Index> candidates, bool smallest);
@@ -100,6 +106,8 @@ class Cells {
   bool has_corner(Index patch, Point p) const;
   bool curve_is_simple(const Turn& turn, const Box& box) const;
   bool sides_of_one_patch(const Turn& s, const Turn& t, Index& patch) const;
+  bool corner_in(Index patch, const Box& box) const;
+  double bend(const Turn& turn, Point end, const Box& box) const;
   bool wall_stays_above(const Turn& from, const Turn& to, const Turn& valley) const;
   void connect(const Turn& a, const Turn& b);
   void add_vertex(Point at);
@@ -114,6 +122,7 @@ class Cells {
   std::vector<Link> arms_;
   std::vector<Index> region_;  // union-find over pieces
   std::vector<Index> stack_;   // candidates
+  std::array<std::vector<double>, 2> corner_place_;  // x and y of corners in a cell
   std::vector<Turn> turns_;
   std::vector<Index> turn_piece_;  // per turn: a piece of the run before it
   std::vector<Envelope::Crossing> found_;
