@@ -198,7 +198,7 @@ bool Cells::settle(const Cell& cell, std::span<const Index> candidates, bool sma
     for (const Index c : candidates) {
       bool seen = turns_.empty() && cell.side[0].label == c;
       for (const Turn& t : turns_) seen = seen || t.after == c;
-      if (!seen) return false;
+      if (!seen && !is_sliver(c, cell.box)) return false;
     }
   }
   const std::size_t n = turns_.size();
@@ -209,6 +209,42 @@ bool Cells::settle(const Cell& cell, std::span<const Index> candidates, bool sma
   ++counters_.leaves;
   if (smallest) ++counters_.smallest_cells;
   return true;
+}
+
+/// True if a patch that shows nowhere around the cell can show inside it only within the tolerance of a seam of its own: where a
+/// valley is tangent to the seam.
+///
+/// With g < 0 where the patch lies, and f its height over another one's: if f - k g <= k t |grad g| all over the box, then f <= 0
+/// wherever g <= -t |grad g|.
+bool Cells::is_sliver(Index patch, const Box& box) const {
+  const PatchSet& patches = envelope_.patches();
+  const Point mid = box.middle();
+  for (const Bound& b : patches.bounds(patch)) {
+    if (b.partner == none) continue;
+    bool beside = false;
+    for (const Turn& t : turns_) beside = beside || t.after == b.partner;
+    if (!beside) continue;
+    const double sign = b.negative ? 1 : -1;
+    const Gradient g = envelope_.bound_gradient(b, mid);
+    const double square = g.x * g.x + g.y * g.y;
+    for (const Turn& t : turns_) {
+      const Index other = t.after;
+      if (other == none || other == b.partner) continue;
+      const Gradient c = patches.gradient(patch, mid), o = patches.gradient(other, mid);
+      const double k = sign * ((c.x - o.x) * g.x + (c.y - o.y) * g.y) / square;
+      if (!(k > 0)) continue;
+      const double value = patches.extended_height(patch, mid) - patches.extended_height(other, mid) -
+                           k * sign * b.value(mid, patches.square_radius());
+      const GradientRange cs = envelope_.gradient_range(patch, box), os = envelope_.gradient_range(other, box),
+                          gs = envelope_.bound_gradient_range(b, box);
+      const Range factor{k * sign, k * sign};
+      const Range x = cs.x - os.x - gs.x * factor, y = cs.y - os.y - gs.y * factor;
+      const double most = value + std::max(std::fabs(x.low), std::fabs(x.high)) * box.half_x() +
+                          std::max(std::fabs(y.low), std::fabs(y.high)) * box.half_y();
+      if (most <= k * std::sqrt(square) * envelope_.tolerance()) return true;
+    }
+  }
+  return false;
 }
 
 void Cells::connect(const Turn& a, const Turn& b) {
@@ -345,8 +381,9 @@ bool Cells::settle_strips(const Box& box) {
     for (const Turn* turn : {&s, &t}) {
       if (turn->meeting == Meeting::seam && (corner_in(turn->before, box) || corner_in(turn->after, box))) return false;
     }
-    const double room = distance(s.at, s_end.at, t.at, t_end.at);
-    return room > 0 && bend(s, s_end.at, box) + bend(t, t_end.at, box) < room;
+    // Closer than the tolerance they may touch: a seam and a valley that are tangent.
+    const double room = std::max(distance(s.at, s_end.at, t.at, t_end.at), envelope_.tolerance());
+    return bend(s, s_end.at, box) + bend(t, t_end.at, box) < room;
   };
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < i; ++j) {

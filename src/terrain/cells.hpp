@@ -106,6 +106,7 @@ class Cells {
   bool has_corner(Index patch, Point p) const;
   bool curve_is_simple(const Turn& turn, const Box& box) const;
   bool sides_of_one_patch(const Turn& s, const Turn& t, Index& patch) const;
+  bool is_sliver(Index patch, const Box& box) const;
   bool corner_in(Index patch, const Box& box) const;
   double bend(const Turn& turn, Point end, const Box& box) const;
   bool wall_stays_above(const Turn& from, const Turn& to, const Turn& valley) const;

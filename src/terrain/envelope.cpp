@@ -250,13 +250,13 @@ void Envelope::section(bool vertical, double at, double from, double to, Index s
   drop_slivers(Line{vertical, at}, start, before, out);
 }
 
-/// Where patches are equally high along a curve, rounding alone decides what shows between them.
+/// Where patches are equally high along a curve, or tangent to each other's borders, rounding alone decides what shows between them.
 void Envelope::drop_slivers(const Line& line, Index start, std::size_t first, std::vector<Crossing>& crossings) const {
   std::size_t kept = first;
   const auto label_before = [&](std::size_t i) { return i == first ? start : crossings[i - 1].after; };
   for (std::size_t i = first; i < crossings.size(); ++i) {
     crossings[kept] = crossings[i];
-    if (kept > first && crossings[kept].t - crossings[kept - 1].t < 8 * smallest_stretch_) {
+    if (kept > first && crossings[kept].t - crossings[kept - 1].t < tolerance_) {
       --kept;
       const Index before = label_before(kept), after = crossings[kept + 1].after;
       if (before == after) continue;
