@@ -104,6 +104,7 @@ class Cells {
   bool all_reach(Point p) const;
   bool is_wall_of(const Turn& turn, Index label) const;
   bool has_corner(Index patch, Point p) const;
+  bool share_corner(Index a, Index b, Point p) const;
   bool curve_is_simple(const Turn& turn, const Box& box) const;
   bool sides_of_one_patch(const Turn& s, const Turn& t, Index& patch) const;
   bool is_sliver(Index patch, const Box& box) const;

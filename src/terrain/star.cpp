@@ -23,6 +23,12 @@ bool Cells::has_corner(Index patch, Point p) const {
   return false;
 }
 
+/// True if two patches have a corner at p at the same height, as far as heights near the rim tell, which fall like square roots.
+bool Cells::share_corner(Index a, Index b, Point p) const {
+  if (a == none || b == none || !has_corner(a, p) || !has_corner(b, p)) return false;
+  return std::fabs(envelope_.border_height(a, p) - envelope_.border_height(b, p)) <= 0x1p22 * envelope_.tolerance();
+}
+
 /// True if every patch among the labels has p in its domain, or on its border as far as numbers tell.
 bool Cells::all_reach(Point p) const {
   const PatchSet& patches = envelope_.patches();
@@ -54,7 +60,7 @@ std::optional<Point> Cells::common_corner(const Box& box) const {
       if (sides_of_one_patch(turns_[i], turns_[j], patch) && !consider(patch, [](Point) { return true; })) return std::nullopt;
       const Index a = turns_[i].after, b = turns_[j].after;
       if (a == none || b == none || a == b) continue;
-      if (!consider(a, [&](Point c) { return has_corner(b, c); })) return std::nullopt;
+      if (!consider(a, [&](Point c) { return share_corner(a, b, c); })) return std::nullopt;
     }
   }
   return found;
@@ -118,7 +124,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
         if (std::fabs(c.bound->value(*corner, square)) > 4 * envelope_.tolerance() * scale) return std::nullopt;
         continue;
       }
-      if (has_corner(turns_[k].before, *corner) && has_corner(turns_[k].after, *corner)) continue;
+      if (share_corner(turns_[k].before, turns_[k].after, *corner)) continue;
       const Gradient g = gradient(c, *corner);
       if (!(std::fabs(value(c, *corner)) <= 4 * envelope_.tolerance() * (1 + std::hypot(g.x, g.y)))) return std::nullopt;
     }
