@@ -43,11 +43,12 @@ class DropCutter::Hierarchy {
   }
   Index guess(const drop::MeshTree&, const Trace& trace, Point) const { return trace.triangle; }
 
-  /// Begins a search with the guess.
+  /// Begins a search with the guess. After a jump of more than R what was touched says nothing.
   template <class Tree>
   drop::Search begin(const Tree& tree, Point place, double radius, const Trace& trace) const {
     drop::Search search = tree.search(place, radius);
-    const Index first = guess(tree, trace, place);
+    const double x = place.x - trace.place.x, y = place.y - trace.place.y;
+    const Index first = guess(tree, x * x + y * y < search.ball.squared ? trace : Trace{}, place);
     if (first != Terrain::none) {
       tree.touch(search, first);
       search.skip = first;
