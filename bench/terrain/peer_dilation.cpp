@@ -1,5 +1,6 @@
 // Grey dilation of a raster by a sampled ball, the usual way to find safe heights above an elevation model: the height
 // over a sample is the greatest of (height of a sample within R) + (height of the ball there).
+#include <algorithm>
 #include <cmath>
 
 #include "operations.hpp"
