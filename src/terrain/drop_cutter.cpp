@@ -1,15 +1,22 @@
 #include "krepl/drop_cutter.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <vector>
 
+#include "kernel/hilbert.hpp"
 #include "kernel/parallel.hpp"
+#include "kernel/radix_sort.hpp"
 #include "terrain/drop_cutter_hierarchy.hpp"
 
 namespace krepl {
 namespace {
 
-constexpr std::size_t run_places = 256;  // of a list, done one after the other
+constexpr std::size_t run_places = 256;                    // of a list, done one after the other
+constexpr std::size_t most_sorted = std::size_t{1} << 32;  // of a list: numbers of 32 bits
+constexpr std::size_t samples_in_cache = std::size_t{1} << 19;
 
 /// Radii that double precision can hold together with coordinates of this size.
 Status check_radius(double radius, double extent) {
@@ -22,6 +29,41 @@ Status check_radius(double radius, double extent) {
                  "give one in the unit of the terrain"};
   }
   return std::monostate{};
+}
+
+/// Whether a good guess and samples that are in the cache save more than sorting the places costs.
+bool is_sorting_worthwhile(const Terrain& terrain, double radius) {
+  if (!terrain.is_grid()) return true;
+  const Terrain::Grid& grid = terrain.grid();
+  return radius > 2 * std::max(grid.cell_x, grid.cell_y) || grid.columns * grid.rows > samples_in_cache;
+}
+
+/// Whether a quarter of the places are farther than R from the ones before.
+bool is_scattered(std::span<const Point> places, double radius) {
+  std::size_t far = 0;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const double x = places[i].x - places[i - 1].x, y = places[i].y - places[i - 1].y;
+    far += x * x + y * y < radius * radius ? 0 : 1;
+  }
+  return far > places.size() / 4;
+}
+
+/// The places along the Hilbert curve, numbers in the lower half of each word.
+std::vector<std::uint64_t> along_curve(std::span<const Point> places, const Terrain& terrain, const Context& context) {
+  const Point3 low = terrain.lowest(), high = terrain.highest();
+  const auto cell = [](double x, double from, double to) {
+    const double at = (x - from) / (to - from) * 0x1p16;
+    return at >= 0 ? std::uint32_t(std::min(at, 65535.0)) : 0u;  // also if it is not a number
+  };
+  std::vector<std::uint64_t> words(places.size());
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::uint32_t x = cell(places[i].x, low.x, high.x), y = cell(places[i].y, low.y, high.y);
+    words[i] = std::uint64_t{kernel::HilbertCurve::index(x, y)} << 32 | i;
+  }
+  Context quiet;
+  quiet.threads = context.threads, quiet.cancel = context.cancel;
+  kernel::radix_sort(words, 32, quiet);
+  return words;
 }
 
 }  // namespace
@@ -51,11 +93,17 @@ Status DropCutter::at(std::span<const Point> places, std::span<Contact> contacts
   if (contacts.size() != places.size()) {
     return Error{ErrorCode::usage, "there is not one contact for each place", "", ""};
   }
+  std::vector<std::uint64_t> order;  // empty: as given
+  if (is_sorting_worthwhile(*terrain_, radius_) && places.size() < most_sorted && is_scattered(places, radius_))
+    order = along_curve(places, *terrain_, context);
   kernel::Progress progress(context, places.size());
   const bool done = kernel::parallel_blocks(context, places.size(), run_places, [&](std::size_t first, std::size_t last) {
     hierarchy_->with_tree([&](const auto& tree) {
       Hierarchy::Trace trace;
-      for (std::size_t i = first; i < last; ++i) contacts[i] = hierarchy_->touch(tree, places[i], radius_, trace);
+      for (std::size_t k = first; k < last; ++k) {
+        const std::size_t i = order.empty() ? k : std::size_t(std::uint32_t(order[k]));
+        contacts[i] = hierarchy_->touch(tree, places[i], radius_, trace);
+      }
     });
     progress.add(last - first);
   });
