@@ -211,35 +211,46 @@ bool Cells::settle(const Cell& cell, std::span<const Index> candidates, bool sma
   return true;
 }
 
-/// True if a patch that shows nowhere around the cell can show inside it only within the tolerance of a seam of its own: where a
-/// valley is tangent to the seam.
+/// True if a patch that shows nowhere around the cell can show inside it only within the tolerance of one of its sides: where a valley
+/// is tangent to a seam, or a wall to another one.
 ///
-/// With g < 0 where the patch lies, and f its height over another one's: if f - k g <= k t |grad g| all over the box, then f <= 0
+/// With g < 0 on the patch's side, and f < 0 where it is hidden: if f - k g <= k t |grad g| all over the box, then f <= 0
 /// wherever g <= -t |grad g|.
 bool Cells::is_sliver(Index patch, const Box& box) const {
   const PatchSet& patches = envelope_.patches();
   const Point mid = box.middle();
-  for (const Bound& b : patches.bounds(patch)) {
-    if (b.partner == none) continue;
-    bool beside = false;
-    for (const Turn& t : turns_) beside = beside || t.after == b.partner;
-    if (!beside) continue;
+  const auto is_seen = [&](Index l) { return std::any_of(turns_.begin(), turns_.end(), [&](const Turn& t) { return t.after == l; }); };
+  struct Function {
+    double value;
+    Gradient gradient;
+    GradientRange range;
+  };
+  const auto side = [&](const Bound& b) {
     const double sign = b.negative ? 1 : -1;
     const Gradient g = envelope_.bound_gradient(b, mid);
-    const double square = g.x * g.x + g.y * g.y;
+    const GradientRange r = envelope_.bound_gradient_range(b, box);
+    const Range factor{sign, sign};
+    return Function{sign * b.value(mid, patches.square_radius()), {sign * g.x, sign * g.y}, {r.x * factor, r.y * factor}};
+  };
+  const auto hidden_by = [&](Index other) {
+    if (const Bound* wall = envelope_.wall_above(other, patch, box)) return side(*wall);
+    const Gradient c = patches.gradient(patch, mid), o = patches.gradient(other, mid);
+    const GradientRange cs = envelope_.gradient_range(patch, box), os = envelope_.gradient_range(other, box);
+    return Function{patches.extended_height(patch, mid) - patches.extended_height(other, mid), {c.x - o.x, c.y - o.y},
+                    {cs.x - os.x, cs.y - os.y}};
+  };
+  for (const Bound& b : patches.bounds(patch)) {
+    if (b.partner == none ? !b.rim : !is_seen(b.partner)) continue;
+    const Function g = side(b);
+    const double square = g.gradient.x * g.gradient.x + g.gradient.y * g.gradient.y;
     for (const Turn& t : turns_) {
-      const Index other = t.after;
-      if (other == none || other == b.partner) continue;
-      const Gradient c = patches.gradient(patch, mid), o = patches.gradient(other, mid);
-      const double k = sign * ((c.x - o.x) * g.x + (c.y - o.y) * g.y) / square;
+      if (t.after == none || t.after == b.partner) continue;
+      const Function f = hidden_by(t.after);
+      const double k = (f.gradient.x * g.gradient.x + f.gradient.y * g.gradient.y) / square;
       if (!(k > 0)) continue;
-      const double value = patches.extended_height(patch, mid) - patches.extended_height(other, mid) -
-                           k * sign * b.value(mid, patches.square_radius());
-      const GradientRange cs = envelope_.gradient_range(patch, box), os = envelope_.gradient_range(other, box),
-                          gs = envelope_.bound_gradient_range(b, box);
-      const Range factor{k * sign, k * sign};
-      const Range x = cs.x - os.x - gs.x * factor, y = cs.y - os.y - gs.y * factor;
-      const double most = value + std::max(std::fabs(x.low), std::fabs(x.high)) * box.half_x() +
+      const Range factor{k, k};
+      const Range x = f.range.x - g.range.x * factor, y = f.range.y - g.range.y * factor;
+      const double most = f.value - k * g.value + std::max(std::fabs(x.low), std::fabs(x.high)) * box.half_x() +
                           std::max(std::fabs(y.low), std::fabs(y.high)) * box.half_y();
       if (most <= k * std::sqrt(square) * envelope_.tolerance()) return true;
     }
@@ -335,10 +346,10 @@ double Cells::bend(const Turn& turn, Point end, const Box& box) const {
     a = envelope_.derivative_range(turn.before, box, along) - envelope_.derivative_range(turn.after, box, along);
     b = envelope_.derivative_range(turn.before, box, across) - envelope_.derivative_range(turn.after, box, across);
   } else {
-    const Bound* seam = envelope_.patches().seam(turn.before, turn.after);
-    if (seam == nullptr) return std::numeric_limits<double>::infinity();
-    if (seam->type == Bound::Type::line) return 0;
-    const GradientRange g = envelope_.bound_gradient_range(*seam, box);
+    const Bound* side = side_along(turn);
+    if (side == nullptr) return std::numeric_limits<double>::infinity();
+    if (side->type == Bound::Type::line) return 0;
+    const GradientRange g = envelope_.bound_gradient_range(*side, box);
     const auto directed = [&](Gradient d) { return g.x * Range{d.x, d.x} + g.y * Range{d.y, d.y}; };
     a = directed(along);
     b = directed(across);
@@ -375,11 +386,10 @@ bool Cells::settle_strips(const Box& box) {
     const Turn &s = turns_[i], &t = turns_[j], &s_end = turns_[std::size_t(mate[i])], &t_end = turns_[std::size_t(mate[j])];
     Index patch = none;
     if (sides_of_one_patch(s, t, patch)) return !corner_in(patch, box);  // they meet only there
-    if (s.meeting == Meeting::rim && t.meeting == Meeting::valley) return wall_stays_above(s, s_end, t);
-    if (t.meeting == Meeting::rim && s.meeting == Meeting::valley) return wall_stays_above(t, t_end, s);
-    if (s.meeting == Meeting::rim || t.meeting == Meeting::rim) return false;
+    if (s.meeting == Meeting::rim && t.meeting == Meeting::valley && wall_stays_above(s, s_end, t)) return true;
+    if (t.meeting == Meeting::rim && s.meeting == Meeting::valley && wall_stays_above(t, t_end, s)) return true;
     for (const Turn* turn : {&s, &t}) {
-      if (turn->meeting == Meeting::seam && (corner_in(turn->before, box) || corner_in(turn->after, box))) return false;
+      if (turn->meeting != Meeting::valley && (corner_in(turn->before, box) || corner_in(turn->after, box))) return false;
     }
     // Closer than the tolerance they may touch: a seam and a valley that are tangent.
     const double room = std::max(distance(s.at, s_end.at, t.at, t_end.at), envelope_.tolerance());
@@ -422,10 +432,8 @@ void Cells::add_vertex(Point at) {
   const Index v = Index(vertices_.size());
   double z = below_everything;
   for (const Turn& t : turns_) {
-    if (t.after == none) continue;
-    bool wall = false;  // there its height falls like a square root, the wall's own does not
-    for (const Turn& other : turns_) wall = wall || is_wall_of(other, t.after);
-    z = std::max(z, wall ? envelope_.rim_height(t.after, at) : envelope_.clamped_height(t.after, at));
+    // Near the rim heights fall like square roots; the rim's own height is as near to the surface.
+    if (t.after != none) z = std::max(z, envelope_.border_height(t.after, at));
   }
   vertices_.push_back({{at.x, at.y, z}, Index(arms_.size()), Index(turns_.size())});
   for (const Turn& t : turns_) {

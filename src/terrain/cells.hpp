@@ -103,6 +103,7 @@ class Cells {
   std::optional<Point> common_corner(const Box& box) const;
   bool all_reach(Point p) const;
   bool is_wall_of(const Turn& turn, Index label) const;
+  const Bound* side_along(const Turn& turn) const;
   bool has_corner(Index patch, Point p) const;
   bool share_corner(Index a, Index b, Point p) const;
   bool curve_is_simple(const Turn& turn, const Box& box) const;

@@ -28,15 +28,23 @@ Envelope::Envelope(const PatchSet& patches, double scale, SurfaceCounters& count
       counters_(counters) {}
 
 Index Envelope::winner(Point p, std::span<const Index> candidates) const {
+  // What rounding alone tells apart counts as equal: of coplanar triangles one over the other, both would show here and there.
   Index best = none;
   double highest = below_everything;
   counters_.height_evaluations += candidates.size();
+  const auto comes_first = [&](Index c, Index d) {
+    const Patch &f = patches_[c], &g = patches_[d];
+    return f.kind != g.kind ? f.kind > g.kind : f.feature < g.feature;  // face, edge, vertex
+  };
   for (const Index c : candidates) {
     if (!patches_.contains(c, p)) continue;
     const double h = patches_.extended_height(c, p);
-    if (h > highest || (h == highest && best != none && patches_[c].feature < patches_[best].feature)) {
+    if (best == none || h > highest + noise_) {
       best = c;
       highest = h;
+    } else if (h >= highest - noise_) {
+      if (comes_first(c, best)) best = c;
+      highest = std::max(highest, h);
     }
   }
   return best;
@@ -112,6 +120,17 @@ const Bound* Envelope::wall_through(Index i, const Box& box) const {
   return wall;
 }
 
+const Bound* Envelope::wall_above(Index upper, Index lower, const Box& box) const {
+  const Bound* wall = wall_through(upper, box);
+  if (wall == nullptr) return nullptr;
+  const Point mid = box.middle(), p = support_point(lower, mid, box.larger_side());
+  const Gradient g = patches_.gradient(lower, p);
+  for (const Point q : {box.low, Point{box.high.x, box.low.y}, box.high, Point{box.low.x, box.high.y}}) {
+    if (!(patches_.extended_height(lower, p) + g.x * (q.x - p.x) + g.y * (q.y - p.y) < rim_height(upper, q) - noise_)) return nullptr;
+  }
+  return wall;
+}
+
 /// True if the patch lies on the inner side of another one's wall within the box, as far as matters.
 bool Envelope::ends_before(Index i, const Bound& wall, const Box& box) const {
   const Patch& f = patches_[i];
@@ -171,6 +190,29 @@ bool Envelope::hidden_in_line(Index lower, Index upper, const Box& box) const {
   return true;
 }
 
+/// True if nothing that the ball touches with the lower patch rises above the upper one's plane: then the lower patch does not rise
+/// above the plane moved by R, however tangent to it.
+bool Envelope::hidden_below_face(Index lower, Index upper, const Box& box) const {
+  const Patch &c = patches_[lower], &k = patches_[upper];
+  if (k.kind != FeatureKind::face || c.kind == FeatureKind::face) return false;
+  const double steep = std::sqrt(1 + k.gx * k.gx + k.gy * k.gy), slack = noise_ * steep;
+  const auto above = [&](double x, double y, double z) {
+    return z - (k.z + k.gx * (x - k.at.x) + k.gy * (y - k.at.y) - patches_.radius() * steep) > slack;
+  };
+  if (above(c.at.x, c.at.y, c.z)) return false;
+  if (c.kind == FeatureKind::edge && above(c.at.x + c.length * c.gx, c.at.y + c.length * c.gy, c.z + c.m * c.length)) return false;
+  return domain_covers(upper, box);
+}
+
+/// True if two straight walls run along each other in the box, each with its patch on its own side and no gap between.
+bool Envelope::back_to_back(const Bound& a, const Bound& b, const Box& box) const {
+  if (a.type != Bound::Type::line || b.type != Bound::Type::line) return false;
+  const double s = a.negative ? 1 : -1, t = b.negative ? 1 : -1;  // the values times these are negative inside
+  const Point m = box.middle();
+  const double spread = std::fabs(s * a.nx + t * b.nx) * box.half_x() + std::fabs(s * a.ny + t * b.ny) * box.half_y();
+  return s * a.value(m, 0) + t * b.value(m, 0) + spread <= tolerance_ / 4;
+}
+
 void Envelope::filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
                       std::vector<Index>& out) const {
   const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
@@ -224,6 +266,18 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
     }
     return false;
   };
+  // Two walls back to back: one of the bodies is there at every place.
+  const auto below_walls = [&](const double (&t)[4]) {
+    for (int k = 0; k < bodies; ++k) {
+      for (int l = k + 1; l < bodies; ++l) {
+        if (wall[k] == nullptr || wall[l] == nullptr || !back_to_back(*wall[k], *wall[l], box)) continue;
+        bool all = true;
+        for (int i = 0; i < 4; i += step) all = all && body[k][i] > t[i] && body[l][i] > t[i];
+        if (all) return true;
+      }
+    }
+    return false;
+  };
   for (const Index c : candidates) {
     if (!domain_meets(c, box)) continue;
     if (small && std::find(champions.begin(), champions.end(), c) == champions.end()) {
@@ -233,8 +287,8 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
       const double hx = g.x * box.half_x(), hy = g.y * box.half_y();
       const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
       bool in_line = false;
-      for (const Index k : champions) in_line = in_line || hidden_in_line(c, k, box);
-      if (in_line || below_one(t, c) || below_two(t)) continue;
+      for (const Index k : champions) in_line = in_line || hidden_in_line(c, k, box) || hidden_below_face(c, k, box);
+      if (in_line || below_one(t, c) || below_two(t) || below_walls(t)) continue;
     }
     out.push_back(c);
   }

@@ -49,7 +49,8 @@ class Envelope {
   double tolerance() const { return tolerance_; }
   double smallest_cell() const { return smallest_cell_; }
 
-  /// Highest candidate at p, the one with the lowest feature number among equals; none if no patch lies over p.
+  /// Highest candidate at p, among equals a face before an edge before a vertex, then the lowest feature number; none if no patch
+  /// lies over p.
   Index winner(Point p, std::span<const Index> candidates) const;
 
   /// Appends to `out` the candidates that may appear in the box: those whose domain meets it and that are not hidden below the
@@ -72,6 +73,8 @@ class Envelope {
   Gradient rim_gradient(Index patch) const;
   /// Gradient of a bound's function; steep but finite near the rim.
   Gradient bound_gradient(const Bound& bound, Point p) const;
+  /// The one side at which the upper patch ends within the box, in a wall that is all above the lower patch; null if it is not so.
+  const Bound* wall_above(Index upper, Index lower, const Box& box) const;
   /// Of extended_height, but continued where the patch's surface has ended.
   double clamped_height(Index patch, Point p) const;
   /// The side of the patch's domain beside p that ends in a wall; null if there is none so near.
@@ -91,6 +94,8 @@ class Envelope {
   const Bound* wall_through(Index patch, const Box& box) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
   bool hidden_in_line(Index lower, Index upper, const Box& box) const;
+  bool hidden_below_face(Index lower, Index upper, const Box& box) const;
+  bool back_to_back(const Bound& a, const Bound& b, const Box& box) const;
   bool domain_covers(Index patch, const Box& box) const;
   bool domain_meets(Index patch, const Box& box) const;
   GradientRange sphere_gradient(Point at, const Box& box, double factor) const;

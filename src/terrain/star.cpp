@@ -15,6 +15,24 @@ struct Condition {
 
 }  // namespace
 
+/// The side of a domain that a seam or rim runs along; at a rim that at which the upper patch ends.
+const Bound* Cells::side_along(const Turn& t) const {
+  const PatchSet& patches = envelope_.patches();
+  if (t.meeting == Meeting::seam) return patches.seam(t.before, t.after);
+  const Bound* nearest = nullptr;
+  double least = 1e300;
+  for (const Index l : {t.before, t.after}) {
+    if (!is_wall_of(t, l)) continue;
+    for (const Bound& b : patches.bounds(l)) {
+      if (b.partner != none) continue;
+      const Gradient g = envelope_.bound_gradient(b, t.at);
+      const double distance = std::fabs(b.value(t.at, patches.square_radius())) / std::hypot(g.x, g.y);
+      if (distance < least) least = distance, nearest = &b;
+    }
+  }
+  return nearest;
+}
+
 bool Cells::has_corner(Index patch, Point p) const {
   if (patch == none) return false;
   for (const Point c : envelope_.patches().corners(patch)) {
@@ -73,25 +91,10 @@ std::optional<Point> Cells::star_point(const Box& box) const {
   const std::size_t n = turns_.size();
   if (n > condition.size()) return std::nullopt;
 
-  const auto rim_of = [&](const Turn& t) {  // the side at which the upper patch ends, near the turn
-    const Bound* nearest = nullptr;
-    double least = 1e300;
-    for (const Index l : {t.before, t.after}) {
-      if (!is_wall_of(t, l)) continue;
-      for (const Bound& b : patches.bounds(l)) {
-        if (b.partner != none) continue;
-        const Gradient g = envelope_.bound_gradient(b, t.at);
-        const double distance = std::fabs(b.value(t.at, square)) / std::hypot(g.x, g.y);
-        if (distance < least) least = distance, nearest = &b;
-      }
-    }
-    return nearest;
-  };
   for (std::size_t i = 0; i < n; ++i) {
     const Turn& t = turns_[i];
     condition[i] = {nullptr, t.before, t.after, false};
-    if (t.meeting == Meeting::seam) condition[i].bound = patches.seam(t.before, t.after);
-    if (t.meeting == Meeting::rim && (condition[i].bound = rim_of(t)) == nullptr) return std::nullopt;
+    if (t.meeting != Meeting::valley && (condition[i].bound = side_along(t)) == nullptr) return std::nullopt;
   }
   // Near the end of a patch its height falls like a square root; the height of the wall itself is smooth.
   for (std::size_t i = 0; i < n; ++i) {
