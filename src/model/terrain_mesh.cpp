@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
 #include "kernel/hilbert.hpp"
 #include "kernel/orientation.hpp"
@@ -35,6 +36,46 @@ struct SpaceBox {
 };
 
 bool finite(Point3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+/// Of the extent: vertices this close are one. Far below the accuracy of any result, and above what a rotation or a projection
+/// leaves between the two ends of a seam of a part.
+constexpr double weld_distance = 0x1p-42;
+
+/// Places that are told apart, found again by a grid of cells in space.
+class Places {
+ public:
+  Places(double distance, std::size_t most) : distance_(distance), cell_(4 * distance) { cells_.reserve(most); }
+
+  /// Number of the first place within the distance of p; p becomes a new one if there is none.
+  Index number(Point3 p, std::vector<Point3>& places) {
+    const auto range = [&](double x) { return std::array<std::int64_t, 2>{index(x - distance_), index(x + distance_)}; };
+    const auto x = range(p.x), y = range(p.y), z = range(p.z);
+    for (std::int64_t i = x[0]; i <= x[1]; ++i) {
+      for (std::int64_t j = y[0]; j <= y[1]; ++j) {
+        for (std::int64_t k = z[0]; k <= z[1]; ++k) {
+          const auto [first, last] = cells_.equal_range(key(i, j, k));
+          for (auto it = first; it != last; ++it) {
+            const Point3 q = places[it->second];
+            if (std::max({std::fabs(q.x - p.x), std::fabs(q.y - p.y), std::fabs(q.z - p.z)}) <= distance_) return it->second;
+          }
+        }
+      }
+    }
+    cells_.emplace(key(index(p.x), index(p.y), index(p.z)), Index(places.size()));
+    places.push_back(p);
+    return Index(places.size() - 1);
+  }
+
+ private:
+  std::int64_t index(double x) const { return std::int64_t(std::floor(x / cell_)); }
+  static std::uint64_t key(std::int64_t i, std::int64_t j, std::int64_t k) {
+    std::uint64_t h = 0;
+    for (const std::int64_t part : {i, j, k}) h = (h ^ std::uint64_t(part)) * 0x9e3779b97f4a7c15u ^ (h >> 29);
+    return h;
+  }
+  double distance_, cell_;
+  std::unordered_multimap<std::uint64_t, Index> cells_;
+};
 
 /// Begins of compressed rows from counts that stand one place further on.
 void add_up(std::vector<Index>& begin) {
@@ -116,7 +157,8 @@ Status MeshBuilder::check() {
   return std::monostate{};
 }
 
-/// Numbers the places where vertices stand along the Hilbert curve, and names the corners by them.
+/// Numbers the places where vertices stand along the Hilbert curve, and names the corners by them. Which of several close points
+/// stands for them does not depend on the order in which they were given.
 bool MeshBuilder::weld() {
   const double width = std::max(box_.high.x - box_.low.x, box_.high.y - box_.low.y);
   const double scale = width > 0 && std::isfinite(65535.0 / width) ? 65535.0 / width : 0.0;
@@ -137,12 +179,13 @@ bool MeshBuilder::weld() {
     return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
   };
   std::vector<Index> number(points_.size());
+  const double extent = std::max({width, box_.high.z - box_.low.z, std::numeric_limits<double>::min()});
+  Places places(weld_distance * extent, order.size());
   for (auto first = order.begin(); first != order.end();) {
     const auto last = std::find_if(first, order.end(), [&](std::uint64_t e) { return e >> 32 != *first >> 32; });
     std::sort(first, last, before);
     for (; first != last; ++first) {
-      if (t_.vertex_.empty() || t_.vertex_.back() != point(*first)) t_.vertex_.push_back(point(*first));
-      number[std::uint32_t(*first)] = Index(t_.vertex_.size() - 1);
+      number[std::uint32_t(*first)] = places.number(point(*first), t_.vertex_);
     }
   }
   t_.report_.welded_vertices = order.size() - t_.vertex_.size();

@@ -36,7 +36,7 @@ const Bound* Cells::side_along(const Turn& t) const {
 bool Cells::has_corner(Index patch, Point p) const {
   if (patch == none) return false;
   for (const Point c : envelope_.patches().corners(patch)) {
-    if (std::hypot(c.x - p.x, c.y - p.y) <= envelope_.tolerance()) return true;
+    if (std::fabs(c.x - p.x) <= envelope_.tolerance() && std::fabs(c.y - p.y) <= envelope_.tolerance()) return true;
   }
   return false;
 }
