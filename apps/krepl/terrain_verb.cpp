@@ -109,9 +109,30 @@ EdgeCounts count_edges(const Surface& surface) {
   return counts;
 }
 
+struct FaceCounts {
+  std::size_t planes = 0, cylinders = 0, spheres = 0;
+};
+
+FaceCounts count_faces(const Surface& surface) {
+  FaceCounts counts;
+  for (std::size_t f = 0; f < surface.subdivision().face_count(); ++f) {
+    const Surface::Index feature = surface.face_feature(Surface::Index(f));
+    if (feature == Surface::none) continue;
+    switch (surface.terrain().feature_kind(feature)) {
+      case Terrain::FeatureKind::face: ++counts.planes; break;
+      case Terrain::FeatureKind::edge: ++counts.cylinders; break;
+      case Terrain::FeatureKind::vertex: ++counts.spheres; break;
+    }
+  }
+  return counts;
+}
+
 void tell_counters(const Surface& surface, double seconds, Session& session) {
   const SurfaceCounters& c = surface.counters();
   session.detail(fmt::format("surface    {:.3f} s: radius {}, {} patches looked at", seconds, surface.radius(), c.patches));
+  const FaceCounts faces = count_faces(surface);
+  session.detail(fmt::format("faces      {} of planes, {} of cylinders, {} of spheres", faces.planes, faces.cylinders,
+                             faces.spheres));
   session.detail(fmt::format("cells      {} examined, {} settled, {} of them as small as the coordinates tell", c.cells,
                              c.leaves, c.smallest_cells));
   session.detail(fmt::format("sections   {} along cell sides, {} heights evaluated", c.lines, c.height_evaluations));

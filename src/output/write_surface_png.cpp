@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "krepl/drop_cutter.hpp"
 #include "ogr/message_capture.hpp"
@@ -45,6 +46,7 @@ class Relief {
   std::array<std::vector<std::uint8_t>, 3> bands() const;
 
  private:
+  Status look_over(const DropCutter& cutter, const SurfaceFrame& frame, const Context& context);
   Colour light(const DropCutter::Contact& contact, Point place) const;
   void take_strip(std::size_t first_row, std::size_t rows, std::span<const DropCutter::Contact> contacts);
   Status draw_edges(Surface::EdgeKind kind, Colour ink, const Context& context);
@@ -57,8 +59,33 @@ class Relief {
   DropCutter::Raster raster_;  // of the samples
   std::vector<Colour> pixel_;
   std::vector<float> coverage_;  // of the lines being drawn
-  double exaggeration_ = 1;
+  double exaggeration_ = 1;          // of heights, for the light only
+  double lowest_ = 0, highest_ = 1;  // centres of the ball
 };
+
+/// Gentle hills are lit as if they were steeper, or they would hardly show. The mean slope of some ten thousand places tells.
+Status Relief::look_over(const DropCutter& cutter, const SurfaceFrame& frame, const Context& context) {
+  constexpr double places = 10000, wanted = 0.35, most = 6;
+  const double cell = std::sqrt(frame.width() * frame.height() / places);
+  const Result<DropCutter::Raster> raster = covering_raster(frame, cell, cell, "--width");
+  if (!raster) return raster.error();
+  double sum = 0, count = 0;
+  lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
+  Status seen = for_each_strip(cutter, *raster, 1, context, [&](std::size_t row, std::size_t rows, auto contacts) {
+    for (std::size_t i = 0; i < rows * raster->columns; ++i) {
+      const DropCutter::Contact& contact = contacts[i];
+      if (!contact.touches()) continue;
+      const Point place = raster->place(i % raster->columns, row + i / raster->columns);
+      const double across = std::hypot(place.x - contact.point.x, place.y - contact.point.y);
+      sum += std::min(1.0, across / (contact.height - contact.point.z));  // near a wall the slope has no bound
+      ++count;
+      lowest_ = std::min(lowest_, contact.height), highest_ = std::max(highest_, contact.height);
+    }
+    return Status(std::monostate{});
+  });
+  exaggeration_ = std::clamp(wanted * count / std::max(sum, 1e-9), 1.0, most);
+  return seen;
+}
 
 /// The ball rests where the surface's normal points from the touched place to the centre, so the relief needs no differences.
 Colour Relief::light(const DropCutter::Contact& contact, Point place) const {
@@ -66,7 +93,8 @@ Colour Relief::light(const DropCutter::Contact& contact, Point place) const {
   const double x = exaggeration_ * (place.x - contact.point.x), y = exaggeration_ * (place.y - contact.point.y);
   const double z = contact.height - contact.point.z, length = std::sqrt(x * x + y * y + z * z);
   const double facing = (-0.5 * x + 0.5 * y + std::sqrt(0.5) * z) / length;  // 45 degrees above the north-west
-  const double shade = 0.30 + 0.95 * std::max(0.0, facing);
+  const double rise = highest_ > lowest_ ? std::clamp((contact.height - lowest_) / (highest_ - lowest_), 0.0, 1.0) : 1.0;
+  const double shade = (0.30 + 0.95 * std::max(0.0, facing)) * (0.80 + 0.20 * rise);  // the deeper, the darker
   const Colour colour = colour_of(surface_.terrain().feature_kind(contact.feature));
   return shade < 1 ? mix({0.05, 0.06, 0.12}, colour, shade) : mix(colour, paper, std::min(0.7, 2 * (shade - 1)));
 }
@@ -114,17 +142,19 @@ double Relief::faintest(Surface::EdgeKind kind) const {
     length += std::hypot(a.x - b.x, a.y - b.y);
   }
   const double density = length / (raster_.step_x * double(samples)) / double(width_ * height_);
-  return std::clamp(0.05 / std::max(density, 1e-9), 0.12, 0.8);
+  return std::clamp(0.05 / std::max(density, 1e-9), 0.06, 0.8);
 }
 
-/// A valley is the darker the larger the angle between its two sides; from 20 degrees on it is drawn in full.
+/// A valley is the darker the larger the angle between its two sides; from 20 degrees on it is drawn in full. Below one degree
+/// it fades away: triangles that are coplanar but for rounding should look so.
 double Relief::weight(Surface::Index e, Point3 middle, double faint) const {
   const Surface::Edge edge = surface_.edge(e);
   if (edge.feature[0] == Surface::none || edge.feature[1] == Surface::none) return 1;
   const Point3 m = SurfacePatch(surface_.terrain(), edge.feature[0], surface_.radius()).normal(middle);
   const Point3 n = SurfacePatch(surface_.terrain(), edge.feature[1], surface_.radius()).normal(middle);
   const double sine = std::hypot(m.y * n.z - m.z * n.y, m.z * n.x - m.x * n.z, m.x * n.y - m.y * n.x);
-  return faint + (1 - faint) * std::min(1.0, sine / 0.34);
+  const double sharp = std::min(1.0, sine / 0.34);
+  return std::min(1.0, sine / 0.0175) * (faint + (1 - faint) * sharp * sharp);
 }
 
 Status Relief::draw_edges(Surface::EdgeKind kind, Colour ink, const Context& context) {
@@ -171,6 +201,7 @@ Status Relief::paint(const Context& context) {
   const std::shared_ptr<const Terrain> terrain(std::shared_ptr<void>(), &surface_.terrain());
   const Result<DropCutter> cutter = DropCutter::build(terrain, surface_.radius(), context);
   if (!cutter) return cutter.error();
+  if (Status seen = look_over(*cutter, frame, context); !seen) return seen;
   Status painted = for_each_strip(*cutter, raster_, samples, context, [&](std::size_t row, std::size_t rows, auto contacts) {
     take_strip(row, rows, contacts);
     return Status(std::monostate{});
