@@ -59,11 +59,12 @@ class Relief {
   DropCutter::Raster raster_;  // of the samples
   std::vector<Colour> pixel_;
   std::vector<float> coverage_;  // of the lines being drawn
-  double exaggeration_ = 1;          // of heights, for the light only
+  double exaggeration_ = 1;      // of heights, for the light only
   double lowest_ = 0, highest_ = 1;  // centres of the ball
 };
 
-/// Gentle hills are lit as if they were steeper, or they would hardly show. The mean slope of some ten thousand places tells.
+/// Gentle hills are lit as if they were steeper, or they would hardly show: the mean slope of some ten thousand places
+/// tells how much.
 Status Relief::look_over(const DropCutter& cutter, const SurfaceFrame& frame, const Context& context) {
   constexpr double places = 10000, wanted = 0.35, most = 6;
   const double cell = std::sqrt(frame.width() * frame.height() / places);
@@ -93,7 +94,8 @@ Colour Relief::light(const DropCutter::Contact& contact, Point place) const {
   const double x = exaggeration_ * (place.x - contact.point.x), y = exaggeration_ * (place.y - contact.point.y);
   const double z = contact.height - contact.point.z, length = std::sqrt(x * x + y * y + z * z);
   const double facing = (-0.5 * x + 0.5 * y + std::sqrt(0.5) * z) / length;  // 45 degrees above the north-west
-  const double rise = highest_ > lowest_ ? std::clamp((contact.height - lowest_) / (highest_ - lowest_), 0.0, 1.0) : 1.0;
+  const double rise =
+      highest_ > lowest_ ? std::clamp((contact.height - lowest_) / (highest_ - lowest_), 0.0, 1.0) : 1.0;
   const double shade = (0.30 + 0.95 * std::max(0.0, facing)) * (0.80 + 0.20 * rise);  // the deeper, the darker
   const Colour colour = colour_of(surface_.terrain().feature_kind(contact.feature));
   return shade < 1 ? mix({0.05, 0.06, 0.12}, colour, shade) : mix(colour, paper, std::min(0.7, 2 * (shade - 1)));
@@ -145,8 +147,8 @@ double Relief::faintest(Surface::EdgeKind kind) const {
   return std::clamp(0.05 / std::max(density, 1e-9), 0.06, 0.8);
 }
 
-/// A valley is the darker the larger the angle between its two sides; from 20 degrees on it is drawn in full. Below one degree
-/// it fades away: triangles that are coplanar but for rounding should look so.
+/// A valley is the darker the larger the angle between its two sides; from 20 degrees on it is drawn in full. Below one
+/// degree it fades away: triangles that are coplanar but for rounding should look so.
 double Relief::weight(Surface::Index e, Point3 middle, double faint) const {
   const Surface::Edge edge = surface_.edge(e);
   if (edge.feature[0] == Surface::none || edge.feature[1] == Surface::none) return 1;
