@@ -219,6 +219,7 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
   const int step = box.low.x == box.high.x || box.low.y == box.high.y ? 2 : 1;  // a line has two ends
   const Point mid = box.middle();
   std::array<std::array<double, 4>, 4> body;
+  std::array<double, 4> least;       // of a body's heights
   std::array<const Bound*, 4> wall;  // where the body ends within the box; null: it does not
   int bodies = 0;
   // Where the box is large beside R nothing is hidden below one body.
@@ -238,9 +239,19 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
         for (int i = 0; i < 4; i += step) body[bodies][i] = rim_height(c, corner[i]) - noise_;
         all = true;
       }
-      if (all) ++bodies;
+      if (!all) continue;
+      least[bodies] = body[bodies][0];
+      for (int i = step; i < 4; i += step) least[bodies] = std::min(least[bodies], body[bodies][i]);
+      ++bodies;
     }
   }
+  // A concave height is least at a corner; faces that are nearly vertical have a top, but no tangent plane worth having.
+  const auto below_least = [&](Index c) {
+    for (int k = 0; k < bodies; ++k) {
+      if (patches_[c].top < least[k] && (wall[k] == nullptr || ends_before(c, *wall[k], box))) return true;
+    }
+    return false;
+  };
   const auto below_one = [&](const double (&t)[4], Index c) {
     for (int k = 0; k < bodies; ++k) {
       bool all = wall[k] == nullptr || ends_before(c, *wall[k], box);
@@ -281,6 +292,7 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
   for (const Index c : candidates) {
     if (!domain_meets(c, box)) continue;
     if (small && std::find(champions.begin(), champions.end(), c) == champions.end()) {
+      if (below_least(c)) continue;
       const Point p = support_point(c, mid, box.larger_side());
       const Gradient g = patches_.gradient(c, p);
       const double h = patches_.extended_height(c, p) + g.x * (mid.x - p.x) + g.y * (mid.y - p.y);

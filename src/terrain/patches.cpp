@@ -251,6 +251,7 @@ void PatchSet::add_vertex(const TerrainWindow& window, Index v) {
   p.bound_count = Index(bounds_.size()) - p.first_bound;
   p.low = box.low;
   p.high = box.high;
+  p.top = at.z + radius_;
   patches_.push_back(p);
 }
 
@@ -310,6 +311,7 @@ void PatchSet::add_edge(const TerrainWindow& window, Index i) {
   }
   p.low = box.low;
   p.high = box.high;
+  p.top = std::max(e.z, b.z) + radius_ * most_up / e.q;
 }
 
 void PatchSet::add_face(const TerrainWindow& window, Index f) {
@@ -353,6 +355,7 @@ void PatchSet::add_face(const TerrainWindow& window, Index f) {
   p.bound_count = 3;
   p.low = box.low;
   p.high = box.high;
+  p.top = std::max({at(0).z, at(1).z, at(2).z}) + radius_ * nz;
 }
 
 double PatchSet::ball_height(Point at, double z, Point p) const {

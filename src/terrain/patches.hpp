@@ -61,6 +61,7 @@ struct Patch {
   double m, q;    ///< edge: rise per unit length in the plane, and sqrt(1 + m^2)
   double length;  ///< edge: in the plane
   Point low, high;  ///< bounding rectangle of the domain
+  double top;       ///< at least its greatest height
 };
 
 /// All patches that may appear above a rectangle, and their domains.
