@@ -16,6 +16,9 @@ constexpr double thinnest = 1e-3;
 /// Of a cylinder, length along the axis counts so little, that sides become rulings.
 constexpr double along_weight = 1e-6;
 
+/// Twice the area of a triangle, seen from above and in terms of the square of a side, below which it is as good as none.
+constexpr double negligible = 1e-7;
+
 }  // namespace
 
 PatchMesh::PatchMesh(const SurfacePatch& patch, std::vector<Point3> points, const std::vector<Triangle>& triangles)
@@ -68,7 +71,10 @@ bool PatchMesh::should_flip(Index side) const {
   if (c == d || turn(a, d, c) <= 0 || turn(d, b, c) <= 0) return false;
   if (turn(a, b, c) <= 0 || turn(b, a, d) <= 0) return true;
   const double now = std::min(area(a, b, c), area(b, a, d)), then = std::min(area(a, d, c), area(d, b, c));
-  return then > thinnest * now && cost(c, d) < clearly_shorter * cost(a, b);
+  if (!(then > thinnest * now && cost(c, d) < clearly_shorter * cost(a, b))) return false;
+  // A flip that made a side too long would be undone by halving it, and so on without end.
+  const double flipped = patch_.curved_square(points_[c], points_[d]);
+  return patch_.sagitta(flipped) <= limit_ || flipped <= patch_.curved_square(points_[a], points_[b]);
 }
 
 /// Triangles a b c and b a d become d c a and c d b.
@@ -94,10 +100,14 @@ void PatchMesh::settle() {
   }
 }
 
-bool PatchMesh::is_too_long(Index side, double limit) const {
+bool PatchMesh::is_too_long(Index side) const {
   if (opposite_[side] == none) return false;
   const Point3 a = points_[corner_[side]], b = points_[corner_[next(side)]];
-  if (patch_.sagitta(patch_.curved_square(a, b)) <= limit) return false;
+  if (patch_.sagitta(patch_.curved_square(a, b)) <= limit_) return false;
+  // Beside a border chord that is too long itself, triangles would become thinner without end.
+  const Index c = corner_[previous(side)], d = corner_[previous(opposite_[side])];
+  const double seen = std::max(std::fabs(area(corner_[side], corner_[next(side)], c)), std::fabs(area(corner_[side], corner_[next(side)], d)));
+  if (seen <= negligible * patch_.curved_square(a, b)) return false;
   const double x = (a.x + b.x) / 2, y = (a.y + b.y) / 2;
   return !(x == a.x && y == a.y) && !(x == b.x && y == b.y);
 }
@@ -129,11 +139,11 @@ void PatchMesh::refine(double max_error) {
   settle();
   if (patch_.kind() == Terrain::FeatureKind::face) return;
   // The circumscribed circle of a triangle on a sphere can be larger than its sides alone tell, by a third in the deviation.
-  const double limit = patch_.kind() == Terrain::FeatureKind::vertex ? 0.75 * max_error : max_error;
+  limit_ = patch_.kind() == Terrain::FeatureKind::vertex ? 0.75 * max_error : max_error;
   for (bool changed = true; changed;) {
     changed = false;
     for (Index s = 0; s < corner_.size(); ++s) {
-      if (!is_too_long(s, limit)) continue;
+      if (!is_too_long(s)) continue;
       halve(s);
       settle();
       changed = true;

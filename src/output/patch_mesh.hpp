@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "krepl/point.hpp"
@@ -42,13 +43,14 @@ class PatchMesh {
   bool should_flip(Index side) const;
   void flip(Index side);
   void settle();
-  bool is_too_long(Index side, double limit) const;
+  bool is_too_long(Index side) const;
   void halve(Index side);
 
   const SurfacePatch& patch_;
   std::vector<Point3> points_;
   std::vector<Index> corner_, opposite_;
   std::vector<Index> doubtful_;  // sides that may have to be flipped
+  double limit_ = std::numeric_limits<double>::infinity();  // of a side's height above its chord
 };
 
 }  // namespace krepl::output

@@ -92,7 +92,7 @@ void Cells::walk(const Cell& cell) {
 
 bool Cells::subdivide(const Cell& cell, std::size_t first, int depth) {
   ++counters_.cells;
-  if (depth < 12 && context_.cancelled()) return false;
+  if (context_.cancelled()) return false;
   const std::size_t begin = stack_.size();
   std::array<Index, 4> champions;
   int count = 0;
@@ -424,8 +424,31 @@ bool Cells::settle_star(const Box& box, bool smallest) {
   }
   const std::optional<Point> p = star_point(box);
   if (!p && !smallest) return false;
-  add_vertex(p.value_or(box.middle()));
+  add_vertex(p ? *p : least_gap(box));
   return true;
+}
+
+/// Where the patches around the smallest cell come closest in height, of the places known there: near walls the middle can be far
+/// off in height.
+Point Cells::least_gap(const Box& box) const {
+  Point best = box.middle();
+  double least = std::numeric_limits<double>::infinity();
+  const auto consider = [&](Point p) {
+    double gap = 0;
+    for (const Turn& t : turns_) {
+      if (t.meeting != Meeting::rim) gap += std::fabs(envelope_.border_height(t.before, p) - envelope_.border_height(t.after, p));
+    }
+    if (gap < least) least = gap, best = p;
+  };
+  consider(best);
+  for (const Turn& t : turns_) {
+    consider(t.at);
+    if (t.after == none) continue;
+    for (const Point c : envelope_.patches().corners(t.after)) {
+      if (std::fabs(c.x - box.middle().x) <= box.larger_side() && std::fabs(c.y - box.middle().y) <= box.larger_side()) consider(c);
+    }
+  }
+  return best;
 }
 
 void Cells::add_vertex(Point at) {

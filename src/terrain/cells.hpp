@@ -100,6 +100,7 @@ class Cells {
   bool settle_strips(const Box& box);
   bool settle_star(const Box& box, bool smallest);
   std::optional<Point> star_point(const Box& box) const;
+  Point least_gap(const Box& box) const;
   std::optional<Point> common_corner(const Box& box) const;
   bool all_reach(Point p) const;
   bool is_wall_of(const Turn& turn, Index label) const;

@@ -29,7 +29,9 @@ class JacksboroSpot : public testing::TestWithParam<Spot> {
   void SetUp() override {
     const auto data = data_directory();
     if (!data || !std::filesystem::exists(*data / "dem/jacksboro.asc.gz")) GTEST_SKIP() << "no dem/jacksboro.asc.gz";
-    const auto file = input::read_terrain({.path = (*data / "dem/jacksboro.asc.gz").string()});
+    input::TerrainRequest request;
+    request.path = (*data / "dem/jacksboro.asc.gz").string();
+    const auto file = input::read_terrain(request);
     // The program refuses degrees without a projection; here the samples alone count.
     if (!file) GTEST_SKIP() << file.error().text();
     terrain_ = file->terrain;
