@@ -111,6 +111,15 @@ void SurfaceAssembly::number_arms() {
 }
 
 void SurfaceAssembly::trace_edges() {
+  // All but closed curves, which are few, end in two arms.
+  const std::size_t edges = arm_begin_.back() / 2;
+  std::size_t guides = 0;
+  for (const Tile& tile : tiles_) guides += tile.guides.size();
+  surface_.edge_.reserve(edges);
+  surface_.guide_begin_.reserve(edges + 1);
+  surface_.guide_.reserve(guides);
+  surface_.subdivision_.face.reserve(2 * edges);
+  half_edge_arm_.reserve(2 * edges);
   surface_.guide_begin_.push_back(0);
   for (Index t = 0; t < tiles_.size(); ++t) {
     for (Index c = 0; c < tiles_[t].chains.size(); ++c) {
@@ -125,33 +134,32 @@ void SurfaceAssembly::trace_edges() {
       if (!used_[t][c]) trace({t, c, 0});
     }
   }
+  for (Tile& tile : tiles_) tile.chains = {}, tile.guides = {};
+  side_chain_ = {};
+  used_ = {};
 }
 
 /// Makes one edge of all chains from a vertex to the next, or around a closed curve.
 void SurfaceAssembly::trace(Step start) {
   Subdivision& s = surface_.subdivision_;
-  const Index half_edge = Index(s.origin.size());
+  const Index half_edge = Index(half_edge_arm_.size());
   const Chain& first = tiles_[start.tile].chains[start.chain];
   const int left = start.from == 0 ? 0 : 1;
   Surface::Edge edge{};
   edge.kind = first.meeting == Meeting::seam     ? Surface::EdgeKind::seam
               : first.meeting == Meeting::valley ? Surface::EdgeKind::valley
                                                  : Surface::EdgeKind::rim;
-  edge.feature = {first.feature[left], first.feature[1 - left]};
+  for (int side = 0; side < 2; ++side) {
+    const int own = side == 0 ? left : 1 - left;
+    edge.feature[std::size_t(side)] = first.lower == own ? none : tiles_[start.tile].region_feature[first.region[own]];
+  }
   edge.curve = terrain::curve_kind(*surface_.terrain_, edge);
   const Index left_region = region_begin_[start.tile] + first.region[left];
   const Index right_region = region_begin_[start.tile] + first.region[1 - left];
 
   const auto arm_of = [&](Index tile, const ChainEnd& end) { return arm_begin_[tile] + end.index; };
-  const auto vertex_of = [&](Index tile, const ChainEnd& end) {
-    const auto& begin = tiles_[tile].arm_begin;
-    return vertex_begin_[tile] + Index(std::upper_bound(begin.begin(), begin.end(), end.index) - begin.begin() - 1);
-  };
-  Index from = none, to = none, from_arm = none, to_arm = none;
-  if (first.end[start.from].kind == ChainEnd::Kind::arm) {
-    from = vertex_of(start.tile, first.end[start.from]);
-    from_arm = arm_of(start.tile, first.end[start.from]);
-  }
+  Index from_arm = none, to_arm = none;
+  if (first.end[start.from].kind == ChainEnd::Kind::arm) from_arm = arm_of(start.tile, first.end[start.from]);
   auto& guides = surface_.guide_;
   const std::size_t first_guide = guides.size();
   Step step = start;
@@ -164,7 +172,6 @@ void SurfaceAssembly::trace(Step start) {
     else guides.insert(guides.end(), std::make_reverse_iterator(end), std::make_reverse_iterator(begin));
     const ChainEnd& last = chain.end[1 - step.from];
     if (last.kind == ChainEnd::Kind::arm) {
-      to = vertex_of(step.tile, last);
       to_arm = arm_of(step.tile, last);
       break;
     }
@@ -175,22 +182,19 @@ void SurfaceAssembly::trace(Step start) {
     if (next.tile == start.tile && next.chain == start.chain) break;
     step = next;
   }
-  if (from == none) {  // a closed curve gets a vertex where its first guide is
-    from = to = Index(surface_.vertex_.size());
+  if (from_arm == none) {  // a closed curve gets a vertex where its first guide is
     surface_.vertex_.push_back(guides[first_guide]);
     guides.erase(guides.begin() + std::ptrdiff_t(first_guide));
     from_arm = Index(arm_half_edge_.size());
     to_arm = from_arm + 1;
     arm_half_edge_.resize(arm_half_edge_.size() + 2);
   }
-  s.origin.push_back(from);
-  s.origin.push_back(to);
   half_edge_arm_.push_back(from_arm);
   half_edge_arm_.push_back(to_arm);
   arm_half_edge_[from_arm] = half_edge;
   arm_half_edge_[to_arm] = half_edge + 1;
-  left_region_.push_back(left_region);
-  left_region_.push_back(right_region);
+  s.face.push_back(left_region);  // until faces have numbers
+  s.face.push_back(right_region);
   surface_.edge_.push_back(edge);
   surface_.guide_begin_.push_back(Index(guides.size()));
 }
@@ -198,17 +202,22 @@ void SurfaceAssembly::trace(Step start) {
 std::optional<Error> SurfaceAssembly::trace_faces() {
   Subdivision& s = surface_.subdivision_;
   s.vertex_count = surface_.vertex_.size();
+  s.origin.resize(half_edge_arm_.size());
   // The arm clockwise of each arm around its vertex.
   std::vector<Index> clockwise(arm_half_edge_.size());
   for (Index t = 0; t < tiles_.size(); ++t) {
     const auto& begin = tiles_[t].arm_begin;
     for (std::size_t v = 0; v + 1 < begin.size(); ++v) {
       for (Index a = begin[v]; a < begin[v + 1]; ++a) {
+        s.origin[arm_half_edge_[arm_begin_[t] + a]] = vertex_begin_[t] + Index(v);
         clockwise[arm_begin_[t] + a] = arm_begin_[t] + (a > begin[v] ? a : begin[v + 1]) - 1;
       }
     }
   }
-  for (Index a = arm_begin_.back(); a < arm_half_edge_.size(); a += 2) clockwise[a] = a + 1, clockwise[a + 1] = a;
+  for (Index a = arm_begin_.back(), v = vertex_begin_.back(); a < arm_half_edge_.size(); a += 2, ++v) {
+    clockwise[a] = a + 1, clockwise[a + 1] = a;
+    s.origin[arm_half_edge_[a]] = s.origin[arm_half_edge_[a + 1]] = v;
+  }
   s.next.resize(s.origin.size());
   for (Index h = 0; h < s.origin.size(); ++h) s.next[h] = arm_half_edge_[clockwise[half_edge_arm_[h ^ 1u]]];
   arm_half_edge_ = {};
@@ -223,16 +232,14 @@ std::optional<Error> SurfaceAssembly::trace_faces() {
   const Index outside = region(region_begin_[0] + tiles_[0].side_region[0][0]);
   face_of[outside] = 0;
   surface_.face_feature_.push_back(feature_of(outside));
-  s.face.resize(s.origin.size());
   for (Index h = 0; h < s.origin.size(); ++h) {
-    const Index r = region(left_region_[h]);
+    const Index r = region(s.face[h]);
     if (face_of[r] == none) {
       face_of[r] = Index(surface_.face_feature_.size());
       surface_.face_feature_.push_back(feature_of(r));
     }
     s.face[h] = face_of[r];
   }
-  left_region_ = {};
   region_ = {};
 
   std::vector<Index> loop_face, loop_start;

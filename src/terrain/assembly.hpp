@@ -36,7 +36,6 @@ class SurfaceAssembly {
   std::vector<std::array<std::vector<Step>, 4>> side_chain_;     // per tile and side: the chain that ends at each crossing
   std::vector<std::vector<bool>> used_;                          // per tile and chain
   std::vector<Index> arm_half_edge_, half_edge_arm_;
-  std::vector<Index> left_region_;                               // per half-edge
 };
 
 }  // namespace krepl

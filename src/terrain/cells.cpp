@@ -119,11 +119,13 @@ bool Cells::subdivide(const Cell& cell, std::size_t first, int depth) {
   return done;
 }
 
-/// Between the corners of patches in the cell, which are vertices mostly, or else in the middle of the longer sides.
+/// Between the corners of patches in the cell, which are vertices mostly, or else near the middle of the longer sides. Exactly in the
+/// middle is often a line of symmetry, along which curves run.
 Cells::Cut Cells::cut(const Box& box, std::span<const Index> candidates) {
+  constexpr double near_middle = 0.48717, uneven = 0.4641;
   const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
   Cut best{width >= height, 0};
-  best.at = best.vertical ? box.middle().x : box.middle().y;
+  best.at = best.vertical ? box.low.x + near_middle * width : box.low.y + near_middle * height;
   if (candidates.size() > 24) return best;
   for (std::vector<double>& t : corner_place_) t.clear();
   for (const Index c : candidates) {
@@ -134,9 +136,7 @@ Cells::Cut Cells::cut(const Box& box, std::span<const Index> candidates) {
     }
   }
   if (corner_place_[0].size() < 2) return best;
-  // The widest gap, but none that makes long thin cells. Half way between two corners is often a line of symmetry, along which
-  // curves run.
-  constexpr double uneven = 0.4641;
+  // The widest gap, but none that makes long thin cells.
   double widest = std::max(width, height) / 32;
   for (const bool vertical : {true, false}) {
     const double low = vertical ? box.low.x : box.low.y, high = vertical ? box.high.x : box.high.y;

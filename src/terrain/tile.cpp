@@ -7,7 +7,7 @@ namespace krepl::terrain {
 namespace {
 
 /// Triangles in a tile, about: enough to make the margin of width R around it cheap, few enough for the cache.
-constexpr double triangles_a_tile = 8192;
+constexpr double triangles_a_tile = 4096;
 
 double distance(Point3 p, Point3 q) { return std::hypot(p.x - q.x, p.y - q.y); }
 
@@ -25,6 +25,8 @@ class ChainWriter {
   }
 
   void write() {
+    tile_.vertices.reserve(cells_.vertices().size());
+    tile_.arm_begin.reserve(cells_.vertices().size() + 1);
     for (const auto& v : cells_.vertices()) {
       tile_.vertices.push_back(v.at);
       tile_.arm_begin.push_back(v.first_arm);
@@ -46,6 +48,9 @@ class ChainWriter {
     for (Index c = 0; c < line_of_.size(); ++c) {
       if (!passed_[c]) follow({ChainEnd::Kind::closed, 0, c}, c, 0);
     }
+    tile_.chains.shrink_to_fit();
+    tile_.guides.shrink_to_fit();
+    tile_.region_feature.shrink_to_fit();
   }
 
  private:
@@ -120,8 +125,7 @@ class ChainWriter {
     const int left = cells_.lines()[line].vertical == (from == 0) ? 1 : 0;
     chain.region[0] = region_of[left];
     chain.region[1] = region_of[1 - left];
-    chain.feature[0] = feature(label[left]);
-    chain.feature[1] = feature(label[1 - left]);
+    chain.lower = 2;
     chain.meeting = crossing.meeting;
     upper_ = label[0] == none ? label[1] : label[0];
     other_ = label[0] == none ? label[0] : label[1];
@@ -130,9 +134,7 @@ class ChainWriter {
     if (other_ != none && cells_.envelope().border_height(other_, p) > cells_.envelope().border_height(upper_, p)) {
       std::swap(upper_, other_);
     }
-    for (Index& f : chain.feature) {
-      if (f != feature(upper_)) f = none;
-    }
+    chain.lower = label[left] == upper_ ? 1 : 0;
   }
 
   void add_point(Index c, const Chain& chain) {
@@ -150,6 +152,15 @@ class ChainWriter {
     return none;
   }
 
+  bool is_straight(const Chain& chain) const {
+    const PatchSet& patches = cells_.envelope().patches();
+    const auto kind = [&](Index label) { return patches[label].kind; };
+    const bool face = kind(upper_) == Terrain::FeatureKind::face || (other_ != none && kind(other_) == Terrain::FeatureKind::face);
+    if (chain.meeting == Meeting::seam) return face;
+    if (chain.meeting == Meeting::rim) return kind(upper_) == Terrain::FeatureKind::edge;
+    return kind(upper_) == Terrain::FeatureKind::face && kind(other_) == Terrain::FeatureKind::face;
+  }
+
   /// A few points are enough to tell which part of the curve is meant: the middle one of an open chain that hardly bends.
   void keep_guides(Chain& chain) {
     chain.first_guide = Index(tile_.guides.size());
@@ -157,7 +168,7 @@ class ChainWriter {
     const bool closed = chain.end[0].kind == ChainEnd::Kind::closed;
     double whole = 0, straight = n > 1 ? distance(points_.front(), points_.back()) : 0;
     for (std::size_t i = 1; i < n; ++i) whole += distance(points_[i - 1], points_[i]);
-    const std::size_t wanted = closed ? 16 : whole > 1.02 * straight ? 5 : 1;
+    const std::size_t wanted = closed ? 16 : is_straight(chain) ? 0 : whole > 1.02 * straight ? 5 : 1;
     if (n <= wanted) {
       tile_.guides.insert(tile_.guides.end(), points_.begin(), points_.end());
     } else {
@@ -170,7 +181,7 @@ class ChainWriter {
         ++next;
       }
     }
-    chain.guide_count = Index(tile_.guides.size()) - chain.first_guide;
+    chain.guide_count = std::uint8_t(tile_.guides.size() - chain.first_guide);
   }
 
   Cells& cells_;

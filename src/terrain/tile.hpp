@@ -33,10 +33,11 @@ struct ChainEnd {
 /// A boundary curve within a tile.
 struct Chain {
   ChainEnd end[2];
-  Index region[2];   ///< left and right of it
-  Index feature[2];  ///< the same; none for the lower side of a rim
+  Index region[2];           ///< left and right of it
+  Index first_guide;         ///< points of the curve between its ends, in order
+  std::uint8_t guide_count;
+  std::uint8_t lower;        ///< the lower side of a rim, left 0 or right 1, where the ball does not touch; 2: none
   Meeting meeting;
-  Index first_guide, guide_count;  ///< points of the curve between its ends, in order
 };
 
 /// What is left of a tile once it is subdivided.
