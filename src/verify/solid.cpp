@@ -139,6 +139,12 @@ T square_axis_distance(const Space<T> (&corner)[3]) {
   return around ? T(0) : best;
 }
 
+/// A result's coordinates are rounded when the origin is added, and once more when it is taken off: here the same happens to the
+/// terrain's, so that equal points stay equal. Also makes -0 to 0.
+Point3 as_in_files(Point3 p, Point3 origin) {
+  return {p.x + origin.x - origin.x + 0.0, p.y + origin.y - origin.y + 0.0, p.z + origin.z - origin.z + 0.0};
+}
+
 }  // namespace
 
 Solid::Solid(const Terrain& terrain) : origin_(terrain.origin()) {
@@ -149,7 +155,7 @@ Solid::Solid(const Terrain& terrain) : origin_(terrain.origin()) {
     if (terrain.feature_kind(feature) != Terrain::FeatureKind::face || !exists(terrain, feature)) continue;
     auto p = terrain.corners(feature).point;
     bool whole = true;
-    for (Point3& q : p) whole = whole && !std::isnan(q.z), q = {q.x + 0.0, q.y + 0.0, q.z + 0.0};
+    for (Point3& q : p) whole = whole && !std::isnan(q.z), q = as_in_files(q, origin_);
     if (whole) corners.push_back(p);
   }
   for (const auto& p : corners) vertices_.insert(vertices_.end(), p.begin(), p.end());
