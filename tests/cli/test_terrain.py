@@ -375,6 +375,12 @@ class Terrain(support.CliTest):
 
     # --- refusals ---
 
+    def test_verify_where_adding_the_origin_rounds(self):
+        rows = [[(3 * c + 5 * r) % 4 for c in range(7)] for r in range(6)]
+        self.write("far.asc", grid(rows, 30.85, (794599.1076146346, 8931774.874602526)))
+        self.succeed("terrain", "far.asc", "out.json", "--radius", "40")
+        self.succeed("verify", "out.json", "--against", "far.asc")
+
     def test_refusals(self):
         formats = "give --format json, gpkg, tif, stl, ply, glb or png"
         for arguments, message in (
