@@ -194,13 +194,7 @@ bool Cells::split(const Cell& cell, std::size_t first, int depth) {
 
 bool Cells::settle(const Cell& cell, std::span<const Index> candidates, bool smallest) {
   walk(cell);
-  if (!smallest) {
-    for (const Index c : candidates) {
-      bool seen = turns_.empty() && cell.side[0].label == c;
-      for (const Turn& t : turns_) seen = seen || t.after == c;
-      if (!seen && !is_sliver(c, cell.box)) return false;
-    }
-  }
+  if (!smallest && !shows_all(cell, candidates)) return false;
   const std::size_t n = turns_.size();
   bool settled = n == 0;
   if (n == 2) settled = settle_arc(cell.box, smallest);
@@ -209,53 +203,6 @@ bool Cells::settle(const Cell& cell, std::span<const Index> candidates, bool sma
   ++counters_.leaves;
   if (smallest) ++counters_.smallest_cells;
   return true;
-}
-
-/// True if a patch that shows nowhere around the cell can show inside it only within the tolerance of one of its sides: where a valley
-/// is tangent to a seam, or a wall to another one.
-///
-/// With g < 0 on the patch's side, and f < 0 where it is hidden: if f - k g <= k t |grad g| all over the box, then f <= 0
-/// wherever g <= -t |grad g|.
-bool Cells::is_sliver(Index patch, const Box& box) const {
-  const PatchSet& patches = envelope_.patches();
-  const Point mid = box.middle();
-  const auto is_seen = [&](Index l) { return std::any_of(turns_.begin(), turns_.end(), [&](const Turn& t) { return t.after == l; }); };
-  struct Function {
-    double value;
-    Gradient gradient;
-    GradientRange range;
-  };
-  const auto side = [&](const Bound& b) {
-    const double sign = b.negative ? 1 : -1;
-    const Gradient g = envelope_.bound_gradient(b, mid);
-    const GradientRange r = envelope_.bound_gradient_range(b, box);
-    const Range factor{sign, sign};
-    return Function{sign * b.value(mid, patches.square_radius()), {sign * g.x, sign * g.y}, {r.x * factor, r.y * factor}};
-  };
-  const auto hidden_by = [&](Index other) {
-    if (const Bound* wall = envelope_.wall_above(other, patch, box)) return side(*wall);
-    const Gradient c = patches.gradient(patch, mid), o = patches.gradient(other, mid);
-    const GradientRange cs = envelope_.gradient_range(patch, box), os = envelope_.gradient_range(other, box);
-    return Function{patches.extended_height(patch, mid) - patches.extended_height(other, mid), {c.x - o.x, c.y - o.y},
-                    {cs.x - os.x, cs.y - os.y}};
-  };
-  for (const Bound& b : patches.bounds(patch)) {
-    if (b.partner == none ? !b.rim : !is_seen(b.partner)) continue;
-    const Function g = side(b);
-    const double square = g.gradient.x * g.gradient.x + g.gradient.y * g.gradient.y;
-    for (const Turn& t : turns_) {
-      if (t.after == none || t.after == b.partner) continue;
-      const Function f = hidden_by(t.after);
-      const double k = (f.gradient.x * g.gradient.x + f.gradient.y * g.gradient.y) / square;
-      if (!(k > 0)) continue;
-      const Range factor{k, k};
-      const Range x = f.range.x - g.range.x * factor, y = f.range.y - g.range.y * factor;
-      const double most = f.value - k * g.value + std::max(std::fabs(x.low), std::fabs(x.high)) * box.half_x() +
-                          std::max(std::fabs(y.low), std::fabs(y.high)) * box.half_y();
-      if (most <= k * std::sqrt(square) * envelope_.tolerance()) return true;
-    }
-  }
-  return false;
 }
 
 void Cells::connect(const Turn& a, const Turn& b) {

@@ -109,7 +109,10 @@ class Cells {
   bool share_corner(Index a, Index b, Point p) const;
   bool curve_is_simple(const Turn& turn, const Box& box) const;
   bool sides_of_one_patch(const Turn& s, const Turn& t, Index& patch) const;
-  bool is_sliver(Index patch, const Box& box) const;
+  bool shows_all(const Cell& cell, std::span<const Index> candidates);
+  bool is_seen(Index label) const;
+  bool is_tangent_sliver(Index patch, const Box& box) const;
+  bool all_are_prisms(std::span<const Index> candidates, const Box& box) const;
   bool corner_in(Index patch, const Box& box) const;
   double bend(const Turn& turn, Point end, const Box& box) const;
   bool wall_stays_above(const Turn& from, const Turn& to, const Turn& valley) const;
@@ -128,6 +131,7 @@ class Cells {
   std::vector<Index> stack_;   // candidates
   std::array<std::vector<double>, 2> corner_place_;  // x and y of corners in a cell
   std::vector<Turn> turns_;
+  std::vector<Index> seen_;        // labels around the cell
   std::vector<Index> turn_piece_;  // per turn: a piece of the run before it
   std::vector<Envelope::Crossing> found_;
   std::optional<Point> failed_at_;

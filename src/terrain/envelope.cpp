@@ -25,6 +25,7 @@ Envelope::Envelope(const PatchSet& patches, double scale, SurfaceCounters& count
       smallest_stretch_(0x1p-50 * scale),
       noise_(0x1p-49 * scale),
       rim_width_(2 * tolerance_),
+      least_up_(std::sqrt(2 * patches.radius() * tolerance_)),
       counters_(counters) {}
 
 Index Envelope::winner(Point p, std::span<const Index> candidates) const {
@@ -50,7 +51,7 @@ Index Envelope::winner(Point p, std::span<const Index> candidates) const {
   return best;
 }
 
-Range Envelope::bound_range(const Bound& b, const Box& box) const {
+Range Envelope::bound_range(const Bound& b, const Box& box, double least_up) const {
   const Point mid = box.middle();
   const double hx = box.half_x(), hy = box.half_y();
   const double dx = mid.x - b.at.x, dy = mid.y - b.at.y;
@@ -65,7 +66,8 @@ Range Envelope::bound_range(const Bound& b, const Box& box) const {
   const double near = near_x * near_x + near_y * near_y, far = far_x * far_x + far_y * far_y;
   if (b.type == Bound::Type::disc) return {near - square - 2 * slack * far_x, far - square + 2 * slack * (far_x + far_y)};
   const double value = dx * b.nx + dy * b.ny, spread = std::fabs(b.nx) * hx + std::fabs(b.ny) * hy + slack;
-  const Range up{std::sqrt(std::max(0.0, square - far)), std::sqrt(std::max(0.0, square - near))};
+  const double low_up = std::max(least_up, std::sqrt(std::max(0.0, square - far)));
+  const Range up{low_up, std::max(low_up, std::sqrt(std::max(0.0, square - near)))};
   const Range lift = b.c >= 0 ? Range{b.c * up.low, b.c * up.high} : Range{b.c * up.high, b.c * up.low};
   return {value - spread + lift.low, value + spread + lift.high};
 }
@@ -73,13 +75,26 @@ Range Envelope::bound_range(const Bound& b, const Box& box) const {
 bool Envelope::domain_meets(Index i, const Box& box) const {
   const Patch& f = patches_[i];
   if (box.high.x < f.low.x || box.low.x > f.high.x || box.high.y < f.low.y || box.low.y > f.high.y) return false;
+  // Where a patch ends in a wall, what reaches into the box by less than matters is left out: two walls can be tangent, and a seam
+  // is tangent to the wall that it ends in.
+  const double least_up = f.kind == FeatureKind::vertex ? least_up_ : 0;
   for (const Bound& b : patches_.bounds(i)) {
-    const Range r = bound_range(b, box);
-    // Where a patch ends in a wall, what reaches into the box by less than matters is left out: two walls can be tangent.
+    const Range r = bound_range(b, box, least_up);
     const double slack = !b.rim ? 0 : b.type == Bound::Type::disc ? 2 * patches_.radius() * tolerance_ : tolerance_;
     if (b.negative ? r.low >= -slack : r.high < slack) return false;
   }
-  return true;
+  if (f.kind != FeatureKind::edge) return true;
+  // The same for an edge's ends, by the place on its axis.
+  const Point mid = box.middle();
+  const double along = (mid.x - f.at.x) * f.gx + (mid.y - f.at.y) * f.gy, aside = (mid.y - f.at.y) * f.gx - (mid.x - f.at.x) * f.gy;
+  const double along_spread = std::fabs(f.gx) * box.half_x() + std::fabs(f.gy) * box.half_y() + noise_;
+  const double aside_spread = std::fabs(f.gy) * box.half_x() + std::fabs(f.gx) * box.half_y();
+  const auto up = [&](double beta, double least) { return std::max(least, std::sqrt(std::max(0.0, patches_.square_radius() - beta * beta))); };
+  const double low_up = up(std::fabs(aside) + aside_spread, least_up_);
+  const double high_up = std::max(low_up, up(std::max(0.0, std::fabs(aside) - aside_spread), 0));
+  const double shift = f.m / f.q;
+  return along + along_spread + shift * (shift > 0 ? high_up : low_up) >= 0 &&
+         along - along_spread + shift * (shift > 0 ? low_up : high_up) <= f.length;
 }
 
 /// Where a tangent plane bounds the patch well over a box of the given size: in its middle, but not closer to the rim than that.
@@ -100,35 +115,94 @@ Point Envelope::support_point(Index i, Point mid, double size) const {
   return {mid.x - shift * f.gy, mid.y + shift * f.gx};
 }
 
+/// A linear function that is nowhere in the part of the box in the patch's domain below the patch.
+Envelope::Plane Envelope::support(Index i, const Box& box) const {
+  const Patch& f = patches_[i];
+  const Point mid = box.middle(), p = support_point(i, mid, box.larger_side());
+  const Gradient g = patches_.gradient(i, p);
+  Plane best{patches_.extended_height(i, p) + g.x * (mid.x - p.x) + g.y * (mid.y - p.y), g};
+  // A steep face that rises towards one of its own sides is not above its height there.
+  constexpr double steep = 16;
+  if (f.kind != FeatureKind::face || std::fabs(f.gx) + std::fabs(f.gy) < steep) return best;
+  const auto highest = [&](const Plane& t) { return t.height + std::fabs(t.gradient.x) * box.half_x() + std::fabs(t.gradient.y) * box.half_y(); };
+  const Plane whole = best;
+  for (const Bound& b : patches_.bounds(i)) {
+    const double sign = b.negative ? 1 : -1, rise = sign * (f.gx * b.nx + f.gy * b.ny);
+    if (!(rise > 0)) continue;
+    const double k = sign * rise;
+    const Plane t{whole.height - k * b.value(mid, 0), {f.gx - k * b.nx, f.gy - k * b.ny}};
+    if (highest(t) < highest(best)) best = t;
+  }
+  return best;
+}
+
+bool Envelope::covers(const Bound& b, const Box& box) const {
+  const Range r = bound_range(b, box);
+  return b.negative ? r.high < 0 : r.low >= 0;
+}
+
 bool Envelope::domain_covers(Index i, const Box& box) const {
-  for (const Bound& b : patches_.bounds(i)) {
-    const Range r = bound_range(b, box);
-    if (b.negative ? r.high >= 0 : r.low < 0) return false;
-  }
-  return true;
+  const std::span<const Bound> bounds = patches_.bounds(i);
+  return std::all_of(bounds.begin(), bounds.end(), [&](const Bound& b) { return covers(b, box); });
 }
 
-/// The one wall at which the patch ends within the box, if it covers the box otherwise: there it is at least as high as its rim.
-const Bound* Envelope::wall_through(Index i, const Box& box) const {
-  const Bound* wall = nullptr;
-  for (const Bound& b : patches_.bounds(i)) {
-    const Range r = bound_range(b, box);
-    if (!(b.negative ? r.high >= 0 : r.low < 0)) continue;
-    if (!b.rim || wall != nullptr) return nullptr;
-    wall = &b;
+/// Bodies are concave, and so are weighted means of two of them: least against a plane at the corners of the box.
+bool Envelope::hidden_within_tolerance(Index i, std::span<const Index> uppers, const Box& box) const {
+  constexpr std::size_t most = 6;
+  if (box.larger_side() >= 2 * patches_.radius()) return false;
+  const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+  const Plane plane = support(i, box);
+  const double hx = plane.gradient.x * box.half_x(), hy = plane.gradient.y * box.half_y(), h = plane.height;
+  const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
+  std::array<std::array<double, 4>, most> above;  // of the bodies over the plane
+  std::size_t count = 0;
+  for (std::size_t u = 0; u < uppers.size() && count < most; ++u) {
+    for (int k = 0; k < 4; ++k) above[count][k] = patches_.body_height(uppers[u], corner[k]) - t[k] + tolerance_;
+    if (std::find(above[count].begin(), above[count].end(), below_everything) == above[count].end()) ++count;
   }
-  return wall;
+  for (std::size_t a = 0; a < count; ++a) {
+    for (std::size_t b = 0; b <= a; ++b) {
+      double low = 0, high = 1;  // weights of a that are enough
+      for (int k = 0; k < 4; ++k) {
+        const double slope = above[a][k] - above[b][k];
+        if (slope > 0) low = std::max(low, -above[b][k] / slope);
+        else if (slope < 0) high = std::min(high, -above[b][k] / slope);
+        else if (above[b][k] < 0) high = -1;
+      }
+      if (low <= high) return true;
+    }
+  }
+  return false;
 }
 
-const Bound* Envelope::wall_above(Index upper, Index lower, const Box& box) const {
-  const Bound* wall = wall_through(upper, box);
-  if (wall == nullptr) return nullptr;
+/// The one wall at which the patch's body ends within the box, if there is one and nothing else of the body's outline meets the box.
+/// Inside of it the body is at least as high as its rim: a ball as its centre, a cigar as its axis beside the place.
+/// A bit beyond an edge's ends its line is as good an outline as the circle there.
+std::optional<Envelope::Wall> Envelope::wall_through(Index i, const Box& box) const {
+  const Patch& f = patches_[i];
+  if (f.kind == FeatureKind::vertex) return Wall{{f.at, 0, 0, 0, Bound::Type::disc, true, none, true}, 0};
+  if (f.kind == FeatureKind::face) return std::nullopt;
+  const Point mid = box.middle();
+  const double along = (mid.x - f.at.x) * f.gx + (mid.y - f.at.y) * f.gy, aside = (mid.y - f.at.y) * f.gx - (mid.x - f.at.x) * f.gy;
+  const double spread = std::fabs(f.gx) * box.half_x() + std::fabs(f.gy) * box.half_y() + noise_;
+  const double beyond = std::max({0.0, spread - along, along + spread - f.length});
+  if (beyond * beyond > patches_.radius() * tolerance_ / 4) return std::nullopt;
+  const bool left = aside > 0;
+  const double limit = left ? patches_.radius() : -patches_.radius();
+  return Wall{{f.at, -f.gy, f.gx, limit, Bound::Type::line, left, none, true}, std::fabs(f.m) * beyond};
+}
+
+std::optional<Bound> Envelope::wall_above(Index upper, Index lower, const Box& box) const {
+  const std::optional<Wall> wall = wall_through(upper, box);
+  if (!wall) return std::nullopt;
   const Point mid = box.middle(), p = support_point(lower, mid, box.larger_side());
   const Gradient g = patches_.gradient(lower, p);
   for (const Point q : {box.low, Point{box.high.x, box.low.y}, box.high, Point{box.low.x, box.high.y}}) {
-    if (!(patches_.extended_height(lower, p) + g.x * (q.x - p.x) + g.y * (q.y - p.y) < rim_height(upper, q) - noise_)) return nullptr;
+    if (!(patches_.extended_height(lower, p) + g.x * (q.x - p.x) + g.y * (q.y - p.y) < rim_height(upper, q) - wall->lowered - noise_)) {
+      return std::nullopt;
+    }
   }
-  return wall;
+  return wall->outline;
 }
 
 /// True if the patch lies on the inner side of another one's wall within the box, as far as matters.
@@ -146,7 +220,14 @@ bool Envelope::ends_before(Index i, const Bound& wall, const Box& box) const {
     }
   }
   if (wall.type == Bound::Type::disc) {
-    return f.kind == FeatureKind::vertex && std::hypot(f.at.x - wall.at.x, f.at.y - wall.at.y) <= tolerance;
+    const auto is_centre = [&](Point p) { return std::hypot(p.x - wall.at.x, p.y - wall.at.y) <= tolerance; };
+    if (f.kind != FeatureKind::edge) return f.kind == FeatureKind::vertex && is_centre(f.at);
+    // Beyond its end an edge's body is a ball.
+    const Point mid = box.middle();
+    const double along = (mid.x - f.at.x) * f.gx + (mid.y - f.at.y) * f.gy;
+    const double spread = std::fabs(f.gx) * box.half_x() + std::fabs(f.gy) * box.half_y() - std::sqrt(patches_.radius() * tolerance);
+    if (along + spread <= 0) return is_centre(f.at);
+    return along - spread >= f.length && is_centre({f.at.x + f.length * f.gx, f.at.y + f.length * f.gy});
   }
   const auto beyond = [&](Point p) {  // of the edge's line, towards the wall
     const double aside = (p.x - wall.at.x) * wall.nx + (p.y - wall.at.y) * wall.ny;
@@ -175,8 +256,7 @@ bool Envelope::hidden_in_line(Index lower, Index upper, const Box& box) const {
   if (std::fabs(beta - turn * aside(c, mid)) > tolerance_ / 4) return false;
   const std::span<const Bound> sides = patches_.bounds(upper);
   for (const Bound& b : sides) {
-    const Range r = bound_range(b, box);
-    if (b.type == Bound::Type::cone && (b.negative ? r.high >= 0 : r.low < 0)) return false;
+    if (b.type == Bound::Type::cone && !covers(b, box)) return false;
   }
   const double spread = std::fabs(k.gx) * box.half_y() + std::fabs(k.gy) * box.half_x(), square = patches_.square_radius();
   const double near = std::max(0.0, std::fabs(beta) - spread), far = std::fabs(beta) + spread;
@@ -204,6 +284,38 @@ bool Envelope::hidden_below_face(Index lower, Index upper, const Box& box) const
   return domain_covers(upper, box);
 }
 
+/// True if the lower patch's feature lies in the upper one's or straight below it, and is no part of its border: then so does
+/// all that a ball touches with it.
+bool Envelope::lies_in(Index lower, Index upper) const {
+  const Patch &c = patches_[lower], &k = patches_[upper];
+  if (c.kind == FeatureKind::face || c.kind > k.kind || k.kind == FeatureKind::vertex) return false;
+  const double tolerance = tolerance_ / 4;
+  const Point a = c.at, b{c.at.x + c.length * c.gx, c.at.y + c.length * c.gy};
+  const double top_a = c.z, top_b = c.z + c.m * c.length;
+  if (k.kind == FeatureKind::edge) {
+    const auto along = [&](Point p) { return (p.x - k.at.x) * k.gx + (p.y - k.at.y) * k.gy; };
+    const auto holds = [&](Point p, double z) {
+      const double t = along(p);
+      return std::fabs((p.y - k.at.y) * k.gx - (p.x - k.at.x) * k.gy) <= tolerance && t >= -tolerance && t <= k.length + tolerance &&
+             z <= k.z + k.m * t + noise_;
+    };
+    if (c.kind == FeatureKind::vertex) return holds(a, top_a) && along(a) > tolerance_ && along(a) < k.length - tolerance_;
+    return c.length < k.length - tolerance_ && holds(a, top_a) && holds(b, top_b);
+  }
+  // A face's patch is the face itself, moved by R along its normal.
+  const double steep = std::sqrt(1 + k.gx * k.gx + k.gy * k.gy), rise = patches_.radius() / steep;
+  const auto holds = [&](Point p, double z, double margin) {
+    if (z > k.z - rise + k.gx * (p.x - k.at.x - k.gx * rise) + k.gy * (p.y - k.at.y - k.gy * rise) + noise_ * steep) return false;
+    for (const Bound& side : patches_.bounds(upper)) {
+      if ((side.negative ? 1 : -1) * side.value({p.x - k.gx * rise, p.y - k.gy * rise}, 0) > -margin) return false;
+    }
+    return true;
+  };
+  if (c.kind == FeatureKind::vertex) return holds(a, top_a, tolerance_);
+  const Point middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
+  return holds(middle, (top_a + top_b) / 2, tolerance_) && holds(a, top_a, -tolerance) && holds(b, top_b, -tolerance);
+}
+
 /// True if two straight walls run along each other in the box, each with its patch on its own side and no gap between.
 bool Envelope::back_to_back(const Bound& a, const Bound& b, const Box& box) const {
   if (a.type != Bound::Type::line || b.type != Bound::Type::line) return false;
@@ -217,10 +329,9 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
                       std::vector<Index>& out) const {
   const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
   const int step = box.low.x == box.high.x || box.low.y == box.high.y ? 2 : 1;  // a line has two ends
-  const Point mid = box.middle();
   std::array<std::array<double, 4>, 4> body;
   std::array<double, 4> least;       // of a body's heights
-  std::array<const Bound*, 4> wall;  // where the body ends within the box; null: it does not
+  std::array<std::optional<Wall>, 4> wall;  // where the body ends within the box
   int bodies = 0;
   // Where the box is large beside R nothing is hidden below one body.
   const bool small = box.larger_side() < 2 * patches_.radius();
@@ -234,9 +345,9 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
         body[bodies][i] = patches_.body_height(c, corner[i]) + margin;
         all = all && body[bodies][i] > below_everything;
       }
-      wall[bodies] = nullptr;
-      if (!all && (wall[bodies] = wall_through(c, box)) != nullptr) {
-        for (int i = 0; i < 4; i += step) body[bodies][i] = rim_height(c, corner[i]) - noise_;
+      wall[bodies].reset();
+      if (!all && (wall[bodies] = wall_through(c, box))) {
+        for (int i = 0; i < 4; i += step) body[bodies][i] = rim_height(c, corner[i]) - wall[bodies]->lowered - noise_;
         all = true;
       }
       if (!all) continue;
@@ -248,13 +359,13 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
   // A concave height is least at a corner; faces that are nearly vertical have a top, but no tangent plane worth having.
   const auto below_least = [&](Index c) {
     for (int k = 0; k < bodies; ++k) {
-      if (patches_[c].top < least[k] && (wall[k] == nullptr || ends_before(c, *wall[k], box))) return true;
+      if (patches_[c].top < least[k] && (!wall[k] || ends_before(c, wall[k]->outline, box))) return true;
     }
     return false;
   };
   const auto below_one = [&](const double (&t)[4], Index c) {
     for (int k = 0; k < bodies; ++k) {
-      bool all = wall[k] == nullptr || ends_before(c, *wall[k], box);
+      bool all = !wall[k] || ends_before(c, wall[k]->outline, box);
       for (int i = 0; i < 4; i += step) all = all && body[k][i] > t[i];
       if (all) return true;
     }
@@ -264,7 +375,7 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
   const auto below_two = [&](const double (&t)[4]) {
     for (int k = 0; k < bodies; ++k) {
       for (int l = k + 1; l < bodies; ++l) {
-        if (wall[k] != nullptr || wall[l] != nullptr) continue;
+        if (wall[k] || wall[l]) continue;
         double low = 0, high = 1;
         for (int i = 0; i < 4; i += step) {
           const double slope = body[k][i] - body[l][i], need = t[i] - body[l][i];
@@ -281,7 +392,7 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
   const auto below_walls = [&](const double (&t)[4]) {
     for (int k = 0; k < bodies; ++k) {
       for (int l = k + 1; l < bodies; ++l) {
-        if (wall[k] == nullptr || wall[l] == nullptr || !back_to_back(*wall[k], *wall[l], box)) continue;
+        if (!wall[k] || !wall[l] || !back_to_back(wall[k]->outline, wall[l]->outline, box)) continue;
         bool all = true;
         for (int i = 0; i < 4; i += step) all = all && body[k][i] > t[i] && body[l][i] > t[i];
         if (all) return true;
@@ -293,13 +404,11 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
     if (!domain_meets(c, box)) continue;
     if (small && std::find(champions.begin(), champions.end(), c) == champions.end()) {
       if (below_least(c)) continue;
-      const Point p = support_point(c, mid, box.larger_side());
-      const Gradient g = patches_.gradient(c, p);
-      const double h = patches_.extended_height(c, p) + g.x * (mid.x - p.x) + g.y * (mid.y - p.y);
+      const auto [h, g] = support(c, box);
       const double hx = g.x * box.half_x(), hy = g.y * box.half_y();
       const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
       bool in_line = false;
-      for (const Index k : champions) in_line = in_line || hidden_in_line(c, k, box) || hidden_below_face(c, k, box);
+      for (const Index k : champions) in_line = in_line || lies_in(c, k) || hidden_in_line(c, k, box) || hidden_below_face(c, k, box);
       if (in_line || below_one(t, c) || below_two(t) || below_walls(t)) continue;
     }
     out.push_back(c);

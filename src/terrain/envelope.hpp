@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -58,12 +59,18 @@ class Envelope {
   void filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
               std::vector<Index>& out) const;
 
+  /// True if the patch rises nowhere in the box above the upper ones' bodies by more than the tolerance.
+  bool hidden_within_tolerance(Index patch, std::span<const Index> uppers, const Box& box) const;
+  /// True if all of the box lies on the patch's side of the bound.
+  bool covers(const Bound& bound, const Box& box) const;
+
   /// Labels along an axis-parallel line: appends crossings with t ascending to `out`. `start` and `end` are the labels at
   /// the two ends, where t is x or y.
   void section(bool vertical, double at, double from, double to, Index start, Index end, std::span<const Index> candidates,
                std::vector<Crossing>& out);
 
-  Range bound_range(const Bound& bound, const Box& box) const;
+  /// `least_up`: of the height over the rim that a cone's value depends on.
+  Range bound_range(const Bound& bound, const Box& box, double least_up = 0) const;
   GradientRange bound_gradient_range(const Bound& bound, const Box& box) const;
   GradientRange gradient_range(Index patch, const Box& box) const;
   /// Of the derivative of extended_height along a direction of the plane.
@@ -73,8 +80,8 @@ class Envelope {
   Gradient rim_gradient(Index patch) const;
   /// Gradient of a bound's function; steep but finite near the rim.
   Gradient bound_gradient(const Bound& bound, Point p) const;
-  /// The one side at which the upper patch ends within the box, in a wall that is all above the lower patch; null if it is not so.
-  const Bound* wall_above(Index upper, Index lower, const Box& box) const;
+  /// The one wall in which the upper patch's body ends within the box, if that wall is all above the lower patch.
+  std::optional<Bound> wall_above(Index upper, Index lower, const Box& box) const;
   /// Of extended_height, but continued where the patch's surface has ended.
   double clamped_height(Index patch, Point p) const;
   /// The side of the patch's domain beside p that ends in a wall; null if there is none so near.
@@ -90,9 +97,21 @@ class Envelope {
   bool gap(const Line& line, double t0, Index l0, double t1, Index l1) const;
   bool single_crossing(const Line& line, double t0, Index l0, double t1, Index l1) const;
   double locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& meeting) const;
+  /// A linear function: its value in the middle of a box, and its gradient.
+  struct Plane {
+    double height;
+    Gradient gradient;
+  };
+  Plane support(Index patch, const Box& box) const;
   Point support_point(Index patch, Point mid, double size) const;
-  const Bound* wall_through(Index patch, const Box& box) const;
+  /// A wall in which a body ends, and by how much the body may be lower there than the patch's rim_height.
+  struct Wall {
+    Bound outline;
+    double lowered;
+  };
+  std::optional<Wall> wall_through(Index patch, const Box& box) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
+  bool lies_in(Index lower, Index upper) const;
   bool hidden_in_line(Index lower, Index upper, const Box& box) const;
   bool hidden_below_face(Index lower, Index upper, const Box& box) const;
   bool back_to_back(const Bound& a, const Bound& b, const Box& box) const;
@@ -101,7 +120,7 @@ class Envelope {
   GradientRange sphere_gradient(Point at, const Box& box, double factor) const;
 
   const PatchSet& patches_;
-  double tolerance_, smallest_cell_, smallest_stretch_, noise_, rim_width_;
+  double tolerance_, smallest_cell_, smallest_stretch_, noise_, rim_width_, least_up_;
   SurfaceCounters& counters_;
   std::vector<Index> stack_;
   std::vector<Crossing>* out_ = nullptr;

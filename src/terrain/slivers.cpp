@@ -1,0 +1,98 @@
+#include <algorithm>
+
+#include "terrain/cells.hpp"
+
+// What shows nowhere around a cell, and what it can be inside: nothing, or less than matters.
+namespace krepl::terrain {
+
+using FeatureKind = Terrain::FeatureKind;
+
+/// True if every candidate that may show in the cell by more than matters is among the labels around it.
+bool Cells::shows_all(const Cell& cell, std::span<const Index> candidates) {
+  seen_.clear();
+  if (turns_.empty() && cell.side[0].label != none) seen_.push_back(cell.side[0].label);
+  for (const Turn& t : turns_) {
+    if (t.after != none && !is_seen(t.after)) seen_.push_back(t.after);
+  }
+  std::optional<bool> prisms;
+  for (const Index c : candidates) {
+    if (is_seen(c) || is_tangent_sliver(c, cell.box) || envelope_.hidden_within_tolerance(c, seen_, cell.box)) continue;
+    if (!prisms) prisms = all_are_prisms(candidates, cell.box);
+    if (!*prisms) return false;
+  }
+  return true;
+}
+
+bool Cells::is_seen(Index label) const { return std::find(seen_.begin(), seen_.end(), label) != seen_.end(); }
+
+/// True if all candidates are the same along one direction all over the box: what shows in it anywhere shows at its sides.
+bool Cells::all_are_prisms(std::span<const Index> candidates, const Box& box) const {
+  const PatchSet& patches = envelope_.patches();
+  const auto edge = std::find_if(candidates.begin(), candidates.end(), [&](Index c) { return patches[c].kind == FeatureKind::edge; });
+  if (edge == candidates.end()) return false;
+  const Patch& axis = patches[*edge];
+  const double size = box.larger_side(), slack = envelope_.tolerance() / 16;
+  for (const Index c : candidates) {
+    const Patch& f = patches[c];
+    if (f.kind == FeatureKind::vertex) return false;
+    double rise = f.gx * axis.gx + f.gy * axis.gy;
+    if (f.kind == FeatureKind::edge) {
+      if (std::fabs(f.gx * axis.gy - f.gy * axis.gx) * size > slack) return false;
+      rise *= f.m;
+    }
+    if (!(std::fabs(rise - axis.m) * size <= slack)) return false;
+    for (const Bound& b : patches.bounds(c)) {
+      if (b.type == Bound::Type::line && std::fabs(b.nx * axis.gx + b.ny * axis.gy) * size <= slack) continue;
+      if (!envelope_.covers(b, box)) return false;
+    }
+  }
+  return true;
+}
+
+/// True if a patch that shows nowhere around the cell can show inside it only within the tolerance of one of its sides: where a valley
+/// is tangent to a seam, or a wall to another one.
+///
+/// With g < 0 on the patch's side, and f < 0 where it is hidden: if f - k g <= k t |grad g| all over the box, then f <= 0
+/// wherever g <= -t |grad g|.
+bool Cells::is_tangent_sliver(Index patch, const Box& box) const {
+  const PatchSet& patches = envelope_.patches();
+  const Point mid = box.middle();
+  struct Function {
+    double value;
+    Gradient gradient;
+    GradientRange range;
+  };
+  const auto side = [&](const Bound& b) {
+    const double sign = b.negative ? 1 : -1;
+    const Gradient g = envelope_.bound_gradient(b, mid);
+    const GradientRange r = envelope_.bound_gradient_range(b, box);
+    const Range factor{sign, sign};
+    return Function{sign * b.value(mid, patches.square_radius()), {sign * g.x, sign * g.y}, {r.x * factor, r.y * factor}};
+  };
+  const auto hidden_by = [&](Index other) {
+    if (const std::optional<Bound> wall = envelope_.wall_above(other, patch, box)) return side(*wall);
+    const Gradient c = patches.gradient(patch, mid), o = patches.gradient(other, mid);
+    const GradientRange cs = envelope_.gradient_range(patch, box), os = envelope_.gradient_range(other, box);
+    return Function{patches.extended_height(patch, mid) - patches.extended_height(other, mid), {c.x - o.x, c.y - o.y},
+                    {cs.x - os.x, cs.y - os.y}};
+  };
+  for (const Bound& b : patches.bounds(patch)) {
+    if (b.partner == none ? !b.rim : !is_seen(b.partner)) continue;
+    const Function g = side(b);
+    const double square = g.gradient.x * g.gradient.x + g.gradient.y * g.gradient.y;
+    for (const Turn& t : turns_) {
+      if (t.after == none || t.after == b.partner) continue;
+      const Function f = hidden_by(t.after);
+      const double k = (f.gradient.x * g.gradient.x + f.gradient.y * g.gradient.y) / square;
+      if (!(k > 0)) continue;
+      const Range factor{k, k};
+      const Range x = f.range.x - g.range.x * factor, y = f.range.y - g.range.y * factor;
+      const double most = f.value - k * g.value + std::max(std::fabs(x.low), std::fabs(x.high)) * box.half_x() +
+                          std::max(std::fabs(y.low), std::fabs(y.high)) * box.half_y();
+      if (most <= k * std::sqrt(square) * envelope_.tolerance()) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace krepl::terrain
