@@ -212,7 +212,7 @@ void Cells::connect(const Turn& a, const Turn& b) {
 
 /// True if the curve between the turn's labels cannot close inside the box: some direction is never along it.
 bool Cells::curve_is_simple(const Turn& t, const Box& box) const {
-  if (t.meeting != Meeting::valley) return box.larger_side() < envelope_.patches().radius();
+  if (t.meeting != Meeting::valley || is_thin_bend(t.before, t.after, box)) return box.larger_side() < envelope_.patches().radius();
   const auto never_along = [&](double x, double y) {
     return (envelope_.derivative_range(t.before, box, {x, y}) - envelope_.derivative_range(t.after, box, {x, y})).excludes_zero();
   };
@@ -241,11 +241,12 @@ bool Cells::is_wall_of(const Turn& turn, Index label) const {
 }
 
 /// True if the curves of both turns are sides of one patch, which lies between them.
-bool Cells::sides_of_one_patch(const Turn& s, const Turn& t, Index& patch) const {
-  if (s.meeting == Meeting::valley || t.meeting == Meeting::valley) return false;
+bool Cells::sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const {
+  const auto is_side = [&](const Turn& turn) { return turn.meeting != Meeting::valley || is_thin_bend(turn.before, turn.after, box); };
+  if (!is_side(s) || !is_side(t)) return false;
   for (const Index l : {s.before, s.after}) {
     if (l == none || (l != t.before && l != t.after)) continue;
-    const auto own = [&](const Turn& turn) { return turn.meeting == Meeting::seam || is_wall_of(turn, l); };
+    const auto own = [&](const Turn& turn) { return turn.meeting != Meeting::rim || is_wall_of(turn, l); };
     if (own(s) && own(t)) {
       patch = l;
       return true;
@@ -332,7 +333,7 @@ bool Cells::settle_strips(const Box& box) {
   const auto apart = [&](std::size_t i, std::size_t j) {
     const Turn &s = turns_[i], &t = turns_[j], &s_end = turns_[std::size_t(mate[i])], &t_end = turns_[std::size_t(mate[j])];
     Index patch = none;
-    if (sides_of_one_patch(s, t, patch)) return !corner_in(patch, box);  // they meet only there
+    if (sides_of_one_patch(s, t, box, patch)) return !corner_in(patch, box);  // they meet only there
     if (s.meeting == Meeting::rim && t.meeting == Meeting::valley && wall_stays_above(s, s_end, t)) return true;
     if (t.meeting == Meeting::rim && s.meeting == Meeting::valley && wall_stays_above(t, t_end, s)) return true;
     for (const Turn* turn : {&s, &t}) {

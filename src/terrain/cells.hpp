@@ -108,9 +108,12 @@ class Cells {
   bool has_corner(Index patch, Point p) const;
   bool share_corner(Index a, Index b, Point p) const;
   bool curve_is_simple(const Turn& turn, const Box& box) const;
-  bool sides_of_one_patch(const Turn& s, const Turn& t, Index& patch) const;
+  bool sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const;
   bool shows_all(const Cell& cell, std::span<const Index> candidates);
   bool is_seen(Index label) const;
+  bool is_thin(Index vertex, Index a, Index b, const Box& box, double width) const;
+  std::optional<Point> end_of_thin_bend(const Box& box) const;
+  bool is_thin_bend(Index a, Index b, const Box& box) const;
   bool is_tangent_sliver(Index patch, const Box& box) const;
   bool all_are_prisms(std::span<const Index> candidates, const Box& box) const;
   bool corner_in(Index patch, const Box& box) const;

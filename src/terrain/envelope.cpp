@@ -243,28 +243,43 @@ bool Envelope::ends_before(Index i, const Bound& wall, const Box& box) const {
   return true;
 }
 
-/// Two edges above each other or in one line, as seen from above: the difference of their heights is linear in the place along
-/// them and in the root that both share, so its least value is at an end.
-bool Envelope::hidden_in_line(Index lower, Index upper, const Box& box) const {
+/// Two edges that run beside or above each other, as seen from above. With u(b) = sqrt(R^2 - b^2) for the distance b from one axis and
+/// b + e from the other, and s between b / u(b) at the two, their heights differ by
+///   level + (q_k - q_c) u(b) + q_c e s,
+/// where level and e are linear in the place.
+bool Envelope::hidden_beside(Index lower, Index upper, const Box& box) const {
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (c.kind != FeatureKind::edge || k.kind != FeatureKind::edge) return false;
-  if (std::fabs(c.gx * k.gy - c.gy * k.gx) > 1e-13) return false;
+  if (std::fabs(c.gx * k.gy - c.gy * k.gx) > 0x1p-8) return false;
   const auto aside = [](const Patch& f, Point p) { return (p.y - f.at.y) * f.gx - (p.x - f.at.x) * f.gy; };
   const double turn = c.gx * k.gx + c.gy * k.gy > 0 ? 1 : -1;
-  const Point mid = box.middle();
-  const double beta = aside(k, mid);
-  if (std::fabs(beta - turn * aside(c, mid)) > tolerance_ / 4) return false;
-  const std::span<const Bound> sides = patches_.bounds(upper);
-  for (const Bound& b : sides) {
+  const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+  double apart[4], widest = 0;
+  for (int i = 0; i < 4; ++i) {
+    apart[i] = turn * aside(c, corner[i]) - aside(k, corner[i]);
+    widest = std::max(widest, std::fabs(apart[i]));
+  }
+  if (widest > 0x1p-4 * patches_.radius()) return false;
+  for (const Bound& b : patches_.bounds(upper)) {
     if (b.type == Bound::Type::cone && !covers(b, box)) return false;
   }
-  const double spread = std::fabs(k.gx) * box.half_y() + std::fabs(k.gy) * box.half_x(), square = patches_.square_radius();
+  const double beta = aside(k, box.middle()), square = patches_.square_radius();
+  const double spread = std::fabs(k.gx) * box.half_y() + std::fabs(k.gy) * box.half_x();
   const double near = std::max(0.0, std::fabs(beta) - spread), far = std::fabs(beta) + spread;
   const double up[2] = {std::sqrt(std::max(0.0, square - far * far)), std::sqrt(std::max(0.0, square - near * near))};
-  for (const Point p : {box.low, Point{box.high.x, box.low.y}, box.high, Point{box.low.x, box.high.y}}) {
-    const double level = rim_height(upper, p) - rim_height(lower, p);
-    for (const double u : up) {
-      if (!(level + (k.q - c.q) * u > noise_)) return false;
+  double slope[2] = {0, 0};
+  if (widest > tolerance_ / 4) {
+    const double low = beta - spread - widest, high = beta + spread + widest;
+    if (!(std::max(-low, high) < patches_.radius())) return false;
+    slope[0] = low / std::sqrt(square - low * low);
+    slope[1] = high / std::sqrt(square - high * high);
+  }
+  for (int i = 0; i < 4; ++i) {
+    const double level = rim_height(upper, corner[i]) - rim_height(lower, corner[i]);
+    for (const double s : slope) {
+      for (const double u : up) {
+        if (!(level + (k.q - c.q) * u + c.q * apart[i] * s > noise_)) return false;
+      }
     }
   }
   return true;
@@ -408,7 +423,7 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
       const double hx = g.x * box.half_x(), hy = g.y * box.half_y();
       const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
       bool in_line = false;
-      for (const Index k : champions) in_line = in_line || lies_in(c, k) || hidden_in_line(c, k, box) || hidden_below_face(c, k, box);
+      for (const Index k : champions) in_line = in_line || lies_in(c, k) || hidden_beside(c, k, box) || hidden_below_face(c, k, box);
       if (in_line || below_one(t, c) || below_two(t) || below_walls(t)) continue;
     }
     out.push_back(c);
@@ -429,9 +444,18 @@ void Envelope::section(bool vertical, double at, double from, double to, Index s
 void Envelope::drop_slivers(const Line& line, Index start, std::size_t first, std::vector<Crossing>& crossings) const {
   std::size_t kept = first;
   const auto label_before = [&](std::size_t i) { return i == first ? start : crossings[i - 1].after; };
+  // A line may run aslant through what is thin.
+  const auto width = [&](const Crossing& from, const Crossing& to) {
+    const double along = to.t - from.t;
+    if (from.meeting != Meeting::seam || to.meeting != Meeting::seam || to.after == none || from.after == none) return along;
+    const Bound* side = patches_.seam(from.after, to.after);
+    if (side == nullptr) return along;
+    const Gradient g = bound_gradient(*side, line.point(to.t));
+    return along * std::fabs(line.vertical ? g.y : g.x) / std::hypot(g.x, g.y);
+  };
   for (std::size_t i = first; i < crossings.size(); ++i) {
     crossings[kept] = crossings[i];
-    if (kept > first && crossings[kept].t - crossings[kept - 1].t < tolerance_) {
+    if (kept > first && width(crossings[kept - 1], crossings[kept]) < tolerance_) {
       --kept;
       const Index before = label_before(kept), after = crossings[kept + 1].after;
       if (before == after) continue;

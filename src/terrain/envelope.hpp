@@ -112,7 +112,7 @@ class Envelope {
   std::optional<Wall> wall_through(Index patch, const Box& box) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
   bool lies_in(Index lower, Index upper) const;
-  bool hidden_in_line(Index lower, Index upper, const Box& box) const;
+  bool hidden_beside(Index lower, Index upper, const Box& box) const;
   bool hidden_below_face(Index lower, Index upper, const Box& box) const;
   bool back_to_back(const Bound& a, const Bound& b, const Box& box) const;
   bool domain_covers(Index patch, const Box& box) const;

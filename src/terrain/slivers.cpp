@@ -16,7 +16,7 @@ bool Cells::shows_all(const Cell& cell, std::span<const Index> candidates) {
   }
   std::optional<bool> prisms;
   for (const Index c : candidates) {
-    if (is_seen(c) || is_tangent_sliver(c, cell.box) || envelope_.hidden_within_tolerance(c, seen_, cell.box)) continue;
+    if (is_seen(c) || is_thin(c, none, none, cell.box, envelope_.tolerance()) || is_tangent_sliver(c, cell.box) || envelope_.hidden_within_tolerance(c, seen_, cell.box)) continue;
     if (!prisms) prisms = all_are_prisms(candidates, cell.box);
     if (!*prisms) return false;
   }
@@ -24,6 +24,63 @@ bool Cells::shows_all(const Cell& cell, std::span<const Index> candidates) {
 }
 
 bool Cells::is_seen(Index label) const { return std::find(seen_.begin(), seen_.end(), label) != seen_.end(); }
+
+/// True if a sphere's patch is nowhere in the box wider than that between two of its seams; to a and b, unless these are none.
+///
+/// Both sides' functions are negative inside, so where their sum is above -t, so is each; their gradients across are at least 1, and
+/// near the rim at least the slope of their root.
+bool Cells::is_thin(Index vertex, Index a, Index b, const Box& box, double width) const {
+  const PatchSet& patches = envelope_.patches();
+  const std::span<const Bound> bounds = patches.bounds(vertex);
+  if (patches[vertex].kind != FeatureKind::vertex) return false;
+  const Point at = patches[vertex].at, mid = box.middle();
+  const double aside = std::hypot(std::max(0.0, std::fabs(mid.x - at.x) - box.half_x()), std::max(0.0, std::fabs(mid.y - at.y) - box.half_y()));
+  const double up = std::sqrt(std::max(0.0, patches.square_radius() - aside * aside));
+  const double steepness = up > 0 ? aside / up : 0;
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Bound &f = bounds[i], &g = bounds[j];
+      if (f.type != Bound::Type::cone || g.type != Bound::Type::cone) continue;
+      if (a != none && !(f.partner == a && g.partner == b) && !(f.partner == b && g.partner == a)) continue;
+      const double s = f.negative ? 1 : -1, t = g.negative ? 1 : -1;
+      const Bound sum{f.at, s * f.nx + t * g.nx, s * f.ny + t * g.ny, s * f.c + t * g.c, Bound::Type::cone, true, none, false};
+      const double slope = std::min(std::fabs(f.c), std::fabs(g.c)) * steepness - 1;
+      if (envelope_.bound_range(sum, box).low >= -width * std::max(1.0, slope)) return true;
+    }
+  }
+  return false;
+}
+
+/// True if two edges are so nearly in one line that the sphere between them is nowhere in the box wider than the tolerance.
+bool Cells::is_thin_bend(Index a, Index b, const Box& box) const {
+  const PatchSet& patches = envelope_.patches();
+  if (a == none || b == none || patches[a].kind != FeatureKind::edge || patches[b].kind != FeatureKind::edge) return false;
+  for (const Bound& side : patches.bounds(a)) {
+    if (side.partner == none || patches[side.partner].kind != FeatureKind::vertex) continue;
+    if (patches.seam(side.partner, b) != nullptr) return is_thin(side.partner, a, b, box, envelope_.tolerance());
+  }
+  return false;
+}
+
+/// Where a sphere's patch between two edges in nearly one line gets too thin to show: anywhere along it.
+std::optional<Point> Cells::end_of_thin_bend(const Box& box) const {
+  if (turns_.size() != 3) return std::nullopt;
+  const PatchSet& patches = envelope_.patches();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Turn &from = turns_[i], &to = turns_[(i + 1) % 3], &beyond = turns_[(i + 2) % 3];
+    if (from.meeting != Meeting::seam || to.meeting != Meeting::seam || from.after == none) continue;
+    if (!is_thin(from.after, from.before, to.after, box, 4 * envelope_.tolerance())) continue;
+    const Bound* seam = patches.seam(from.before, from.after);
+    Point p{(from.at.x + beyond.at.x) / 2, (from.at.y + beyond.at.y) / 2};
+    for (int k = 0; k < 8; ++k) {
+      const Gradient g = envelope_.bound_gradient(*seam, p);
+      const double step = seam->value(p, patches.square_radius()) / (g.x * g.x + g.y * g.y);
+      p = {p.x - step * g.x, p.y - step * g.y};
+    }
+    if (p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y) return p;
+  }
+  return std::nullopt;
+}
 
 /// True if all candidates are the same along one direction all over the box: what shows in it anywhere shows at its sides.
 bool Cells::all_are_prisms(std::span<const Index> candidates, const Box& box) const {

@@ -75,7 +75,7 @@ std::optional<Point> Cells::common_corner(const Box& box) const {
   for (std::size_t i = 0; i < turns_.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       Index patch = none;
-      if (sides_of_one_patch(turns_[i], turns_[j], patch) && !consider(patch, [](Point) { return true; })) return std::nullopt;
+      if (sides_of_one_patch(turns_[i], turns_[j], box, patch) && !consider(patch, [](Point) { return true; })) return std::nullopt;
       const Index a = turns_[i].after, b = turns_[j].after;
       if (a == none || b == none || a == b) continue;
       if (!consider(a, [&](Point c) { return share_corner(a, b, c); })) return std::nullopt;
@@ -117,6 +117,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
     return envelope_.clamped_height(c.a, p) - (c.at_rim ? envelope_.rim_height(c.b, p) : envelope_.clamped_height(c.b, p));
   };
 
+  if (const std::optional<Point> end = end_of_thin_bend(box)) return end;
   // A corner that two labels share, or two sides of one, is known beforehand; near the rim the curves there are tangent.
   if (const std::optional<Point> corner = common_corner(box)) {
     if (!all_reach(*corner)) return std::nullopt;
