@@ -111,7 +111,7 @@ class Cells {
   bool sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const;
   bool shows_all(const Cell& cell, std::span<const Index> candidates);
   bool is_seen(Index label) const;
-  bool is_thin(Index vertex, Index a, Index b, const Box& box, double width) const;
+  bool is_thin(Index patch, Index a, Index b, const Box& box, double width) const;
   std::optional<Point> end_of_thin_bend(const Box& box) const;
   bool is_thin_bend(Index a, Index b, const Box& box) const;
   bool is_tangent_sliver(Index patch, const Box& box) const;

@@ -275,7 +275,7 @@ bool Envelope::hidden_beside(Index lower, Index upper, const Box& box) const {
     slope[1] = high / std::sqrt(square - high * high);
   }
   for (int i = 0; i < 4; ++i) {
-    const double level = rim_height(upper, corner[i]) - rim_height(lower, corner[i]);
+    const double level = axis_height(upper, corner[i]) - axis_height(lower, corner[i]);
     for (const double s : slope) {
       for (const double u : up) {
         if (!(level + (k.q - c.q) * u + c.q * apart[i] * s > noise_)) return false;
@@ -445,17 +445,19 @@ void Envelope::drop_slivers(const Line& line, Index start, std::size_t first, st
   std::size_t kept = first;
   const auto label_before = [&](std::size_t i) { return i == first ? start : crossings[i - 1].after; };
   // A line may run aslant through what is thin.
-  const auto width = [&](const Crossing& from, const Crossing& to) {
-    const double along = to.t - from.t;
-    if (from.meeting != Meeting::seam || to.meeting != Meeting::seam || to.after == none || from.after == none) return along;
-    const Bound* side = patches_.seam(from.after, to.after);
-    if (side == nullptr) return along;
-    const Gradient g = bound_gradient(*side, line.point(to.t));
-    return along * std::fabs(line.vertical ? g.y : g.x) / std::hypot(g.x, g.y);
+  const auto sine = [&](Index before, const Crossing& c) {  // of the angle between the line and the curve
+    const Gradient g = gradient_across(before, c.after, c.meeting, line.point(c.t));
+    const double size = std::hypot(g.x, g.y);
+    return size > 0 ? std::fabs(line.vertical ? g.y : g.x) / size : 1.0;
+  };
+  const auto width = [&](std::size_t i) {  // between the last crossing kept and the i-th
+    const double along = crossings[i].t - crossings[kept - 1].t;
+    if (along > 0x1p12 * tolerance_) return along;
+    return along * std::max(sine(label_before(kept - 1), crossings[kept - 1]), sine(crossings[kept - 1].after, crossings[i]));
   };
   for (std::size_t i = first; i < crossings.size(); ++i) {
     crossings[kept] = crossings[i];
-    if (kept > first && width(crossings[kept - 1], crossings[kept]) < tolerance_) {
+    if (kept > first && width(kept) < tolerance_) {
       --kept;
       const Index before = label_before(kept), after = crossings[kept + 1].after;
       if (before == after) continue;
@@ -544,10 +546,16 @@ Gradient Envelope::rim_gradient(Index i) const {
   return f.kind == FeatureKind::edge ? Gradient{f.m * f.gx, f.m * f.gy} : Gradient{0, 0};
 }
 
+double Envelope::axis_height(Index i, Point p) const {
+  const Patch& f = patches_[i];
+  return f.z + f.m * ((p.x - f.at.x) * f.gx + (p.y - f.at.y) * f.gy);
+}
+
 double Envelope::rim_height(Index i, Point p) const {
   const Patch& f = patches_[i];
+  if (f.kind == FeatureKind::face) return patches_.extended_height(i, p);  // nearly vertical, the cylinder beside it too thin to show
   if (f.kind == FeatureKind::vertex) return f.z;
-  return f.z + f.m * ((p.x - f.at.x) * f.gx + (p.y - f.at.y) * f.gy);
+  return f.z + f.m * std::clamp((p.x - f.at.x) * f.gx + (p.y - f.at.y) * f.gy, 0.0, f.length);
 }
 
 const Bound* Envelope::rim_at(Index i, Point p) const {
@@ -560,6 +568,22 @@ const Bound* Envelope::rim_at(Index i, Point p) const {
 }
 
 double Envelope::border_height(Index i, Point p) const { return rim_at(i, p) != nullptr ? rim_height(i, p) : clamped_height(i, p); }
+
+/// Gradient of a function that vanishes along the curve between two labels.
+Gradient Envelope::gradient_across(Index a, Index b, Meeting how, Point p) const {
+  if (how == Meeting::seam) {
+    if (const Bound* side = patches_.seam(a, b)) return bound_gradient(*side, p);
+  }
+  if (how == Meeting::valley) {
+    const Gradient g = patches_.gradient(a, p), h = patches_.gradient(b, p);
+    return {g.x - h.x, g.y - h.y};
+  }
+  for (const Index l : {a, b}) {
+    if (l == none) continue;
+    if (const Bound* rim = rim_at(l, p)) return bound_gradient(*rim, p);
+  }
+  return {0, 0};
+}
 
 Meeting Envelope::meeting(Index a, Index b, Point p) const {
   if (a == none || b == none) return Meeting::rim;

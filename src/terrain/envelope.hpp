@@ -61,6 +61,8 @@ class Envelope {
 
   /// True if the patch rises nowhere in the box above the upper ones' bodies by more than the tolerance.
   bool hidden_within_tolerance(Index patch, std::span<const Index> uppers, const Box& box) const;
+  /// False if the patch's domain certainly does not reach into the box by more than matters.
+  bool domain_meets(Index patch, const Box& box) const;
   /// True if all of the box lies on the patch's side of the bound.
   bool covers(const Bound& bound, const Box& box) const;
 
@@ -89,6 +91,7 @@ class Envelope {
   /// Height at p, a place on the border of the patch's domain: at a rim that of the rim.
   double border_height(Index patch, Point p) const;
   Meeting meeting(Index a, Index b, Point p) const;
+  Gradient gradient_across(Index a, Index b, Meeting how, Point p) const;
 
  private:
   struct Line;
@@ -112,11 +115,11 @@ class Envelope {
   std::optional<Wall> wall_through(Index patch, const Box& box) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
   bool lies_in(Index lower, Index upper) const;
+  double axis_height(Index edge, Point p) const;
   bool hidden_beside(Index lower, Index upper, const Box& box) const;
   bool hidden_below_face(Index lower, Index upper, const Box& box) const;
   bool back_to_back(const Bound& a, const Bound& b, const Box& box) const;
   bool domain_covers(Index patch, const Box& box) const;
-  bool domain_meets(Index patch, const Box& box) const;
   GradientRange sphere_gradient(Point at, const Box& box, double factor) const;
 
   const PatchSet& patches_;

@@ -25,15 +25,17 @@ bool Cells::shows_all(const Cell& cell, std::span<const Index> candidates) {
 
 bool Cells::is_seen(Index label) const { return std::find(seen_.begin(), seen_.end(), label) != seen_.end(); }
 
-/// True if a sphere's patch is nowhere in the box wider than that between two of its seams; to a and b, unless these are none.
+/// True if a cylinder's or sphere's patch is nowhere in the box wider than that between two of its sides; a sphere's between the seams to
+/// a and b, unless these are none.
 ///
 /// Both sides' functions are negative inside, so where their sum is above -t, so is each; their gradients across are at least 1, and
 /// near the rim at least the slope of their root.
-bool Cells::is_thin(Index vertex, Index a, Index b, const Box& box, double width) const {
+bool Cells::is_thin(Index patch, Index a, Index b, const Box& box, double width) const {
   const PatchSet& patches = envelope_.patches();
-  const std::span<const Bound> bounds = patches.bounds(vertex);
-  if (patches[vertex].kind != FeatureKind::vertex) return false;
-  const Point at = patches[vertex].at, mid = box.middle();
+  const std::span<const Bound> bounds = patches.bounds(patch);
+  if (patches[patch].kind == FeatureKind::edge) return bounds[0].c - bounds[1].c <= width;  // its two straight sides
+  if (patches[patch].kind != FeatureKind::vertex) return false;
+  const Point at = patches[patch].at, mid = box.middle();
   const double aside = std::hypot(std::max(0.0, std::fabs(mid.x - at.x) - box.half_x()), std::max(0.0, std::fabs(mid.y - at.y) - box.half_y()));
   const double up = std::sqrt(std::max(0.0, patches.square_radius() - aside * aside));
   const double steepness = up > 0 ? aside / up : 0;
@@ -57,7 +59,8 @@ bool Cells::is_thin_bend(Index a, Index b, const Box& box) const {
   if (a == none || b == none || patches[a].kind != FeatureKind::edge || patches[b].kind != FeatureKind::edge) return false;
   for (const Bound& side : patches.bounds(a)) {
     if (side.partner == none || patches[side.partner].kind != FeatureKind::vertex) continue;
-    if (patches.seam(side.partner, b) != nullptr) return is_thin(side.partner, a, b, box, envelope_.tolerance());
+    if (patches.seam(side.partner, b) == nullptr) continue;
+    return !envelope_.domain_meets(side.partner, box) || is_thin(side.partner, a, b, box, envelope_.tolerance());
   }
   return false;
 }

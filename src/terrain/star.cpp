@@ -19,14 +19,15 @@ struct Condition {
 const Bound* Cells::side_along(const Turn& t) const {
   const PatchSet& patches = envelope_.patches();
   if (t.meeting == Meeting::seam) return patches.seam(t.before, t.after);
+  // Beside a seam only where what it leads to is too thin to show.
+  const double far = 4 * envelope_.tolerance();
   const Bound* nearest = nullptr;
   double least = 1e300;
   for (const Index l : {t.before, t.after}) {
     if (!is_wall_of(t, l)) continue;
     for (const Bound& b : patches.bounds(l)) {
-      if (b.partner != none) continue;
       const Gradient g = envelope_.bound_gradient(b, t.at);
-      const double distance = std::fabs(b.value(t.at, patches.square_radius())) / std::hypot(g.x, g.y);
+      const double distance = std::fabs(b.value(t.at, patches.square_radius())) / std::hypot(g.x, g.y) + (b.partner != none ? far : 0);
       if (distance < least) least = distance, nearest = &b;
     }
   }
