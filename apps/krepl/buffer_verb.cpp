@@ -2,12 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <filesystem>
 
 #include "input/network_reader.hpp"
 #include "krepl/zone.hpp"
-#include "output/atomic_file.hpp"
 #include "output/zone_file.hpp"
+#include "output_target.hpp"
 #include "verbs.hpp"
 
 namespace krepl::app {
@@ -104,23 +103,12 @@ Result<std::vector<Zone>> compute_zones(const input::NetworkData& data, const Bu
   return zones;
 }
 
-/// Fails now rather than after a long computation: tries the place of the result, and leaves nothing there.
-Status check_output(const std::string& path, const std::string& input) {
-  if (output::is_stream_target(path)) return std::monostate{};
-  std::error_code not_there;
-  if (std::filesystem::equivalent(path, input, not_there)) {
-    return Error{ErrorCode::usage, "is the input, which would be lost", "", "name another file for the result"};
-  }
-  Result<output::AtomicFile> file = output::AtomicFile::create(path);
-  if (!file) return file.error();
-  return std::monostate{};
-}
-
 int run_buffer(const BufferOptions& options, Session& session) {
   Stopwatch total;
   Result<BufferPlan> plan = make_plan(options);
   if (!plan) return session.fail("", plan.error());
-  if (Status writable = check_output(options.output, options.input.path); !writable) return session.fail(options.output, writable.error());
+  if (Status target = check_target(options.output, {options.input.path}); !target)
+    return session.fail(options.output, target.error());
 
   Stopwatch reading;
   const std::string& in = options.input.path;

@@ -5,13 +5,12 @@
 #include <array>
 #include <charconv>
 #include <chrono>
-#include <filesystem>
 #include <memory>
 
 #include "input/place_reader.hpp"
 #include "krepl/drop_cutter.hpp"
-#include "output/atomic_file.hpp"
 #include "output/output_stream.hpp"
+#include "output_target.hpp"
 #include "terrain_options.hpp"
 #include "verbs.hpp"
 
@@ -75,19 +74,6 @@ void append_row(std::string& text, Point place, const Contact& contact, const Te
   text += '\n';
 }
 
-/// Fails before a long computation rather than after it, and leaves nothing in the result's place.
-Status check_target(const HeightOptions& options) {
-  if (output::is_stream_target(options.output)) return std::monostate{};
-  for (const std::string& input : {options.terrain.request.path, options.places}) {
-    std::error_code not_there;
-    if (std::filesystem::equivalent(options.output, input, not_there))
-      return Error{ErrorCode::usage, "is an input, which would be lost", "", "name another file for the result"};
-  }
-  Result<output::AtomicFile> file = output::AtomicFile::create(options.output);
-  if (!file) return file.error();
-  return std::monostate{};
-}
-
 /// Lowers the ball at all places and writes a row for each, portion by portion.
 Result<Counts> write_heights(const std::string& path, const DropCutter& cutter, const std::vector<Point>& places,
                              const Context& context) {
@@ -124,7 +110,8 @@ int run_height(const HeightOptions& options, Session& session) {
   if (!request) return session.fail("", request.error());
   if (options.places == "-" && request->path == "-")
     return session.fail("", {ErrorCode::usage, "IN and --at are both standard input", "", "name a file for one of them"});
-  if (Status target = check_target(options); !target) return session.fail(options.output, target.error());
+  if (Status target = check_target(options.output, {request->path, options.places}); !target)
+    return session.fail(options.output, target.error());
 
   const Result<std::vector<Point>> places = input::read_places(options.places, session.context("reading"));
   if (!places) return session.fail(options.places_name(), places.error());

@@ -3,13 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <filesystem>
 #include <memory>
 
 #include "input/geometry_source.hpp"
 #include "input/profile_reader.hpp"
 #include "krepl/profile.hpp"
-#include "output/atomic_file.hpp"
+#include "output_target.hpp"
 #include "profile_files.hpp"
 #include "verbs.hpp"
 
@@ -38,17 +37,6 @@ Result<Format> find_format(const ProfileOptions& options) {
   return Error{ErrorCode::usage, what, "", "profiles are written as csv or svg; see --format"};
 }
 
-/// Fails before a long computation rather than after it, and leaves nothing in the result's place.
-Status check_target(const ProfileOptions& options) {
-  if (output::is_stream_target(options.output)) return std::monostate{};
-  std::error_code not_there;
-  if (std::filesystem::equivalent(options.output, options.input.path, not_there))
-    return Error{ErrorCode::usage, "is the input, which would be lost", "", "name another file for the result"};
-  Result<output::AtomicFile> file = output::AtomicFile::create(options.output);
-  if (!file) return file.error();
-  return std::monostate{};
-}
-
 void tell(const Profile& profile, double seconds, Session& session) {
   const ProfileCounters& c = profile.counters;
   session.detail(fmt::format("profile    {:.3f} s: {} segments of positive length, {} pieces hidden by later ones, {} at once on the stack",
@@ -72,7 +60,8 @@ int run_profile(const ProfileOptions& options, Session& session) {
   if (!radius) return session.fail("", radius.error());
   const Result<Format> format = find_format(options);
   if (!format) return session.fail("", format.error());
-  if (Status target = check_target(options); !target) return session.fail(options.output, target.error());
+  if (Status target = check_target(options.output, {options.input.path}); !target)
+    return session.fail(options.output, target.error());
 
   const std::string in_name = options.input.path == "-" ? "standard input" : options.input.path;
   const std::string out_name = options.output == "-" ? "standard output" : options.output;

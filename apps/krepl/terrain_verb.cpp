@@ -3,12 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <filesystem>
 #include <memory>
 
 #include "krepl/surface.hpp"
-#include "output/atomic_file.hpp"
 #include "output/surface_file.hpp"
+#include "output_target.hpp"
 #include "terrain_options.hpp"
 #include "verbs.hpp"
 
@@ -83,17 +82,6 @@ Result<TerrainPlan> make_plan(const TerrainVerbOptions& options) {
   if (!request) return request.error();
   plan.request = *request;
   return plan;
-}
-
-/// Fails before a long computation rather than after it, and leaves nothing in the result's place.
-Status check_target(const std::string& path, const std::string& input) {
-  if (output::is_stream_target(path)) return std::monostate{};
-  std::error_code not_there;
-  if (std::filesystem::equivalent(path, input, not_there))
-    return Error{ErrorCode::usage, "is the input, which would be lost", "", "name another file for the result"};
-  Result<output::AtomicFile> file = output::AtomicFile::create(path);
-  if (!file) return file.error();
-  return std::monostate{};
 }
 
 struct EdgeCounts {
@@ -172,7 +160,7 @@ int run_terrain(const TerrainVerbOptions& options, Session& session) {
   const Clock::time_point start = Clock::now();
   Result<TerrainPlan> plan = make_plan(options);
   if (!plan) return session.fail("", plan.error());
-  if (Status target = check_target(options.output, options.terrain.request.path); !target)
+  if (Status target = check_target(options.output, {options.terrain.request.path}); !target)
     return session.fail(options.output, target.error());
 
   const Result<input::TerrainFile> file = input::read_terrain(plan->request, session.context("reading"));
