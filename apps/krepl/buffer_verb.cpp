@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 
 #include "input/network_reader.hpp"
 #include "krepl/zone.hpp"
 #include "output/zone_file.hpp"
 #include "output_target.hpp"
+#include "stopwatch.hpp"
 #include "verbs.hpp"
 
 namespace krepl::app {
@@ -24,14 +24,6 @@ struct BufferPlan {
   std::vector<double> radii;
   output::ZoneFormat format;
   output::ZoneFileOptions file;
-};
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 Status check_engine(const std::string& engine) {
@@ -111,8 +103,7 @@ int run_buffer(const BufferOptions& options, Session& session) {
     return session.fail(options.output, target.error());
 
   Stopwatch reading;
-  const std::string& in = options.input.path;
-  std::string in_name = in == "-" ? "standard input" : in;
+  const std::string in_name = input_name(options.input.path);
   Result<input::NetworkData> data = input::read_network(options.input, session.context("reading"));
   if (!data) return session.fail(in_name, data.error());
   for (const std::string& note : data->notes) session.note(in_name, note);
@@ -122,7 +113,7 @@ int run_buffer(const BufferOptions& options, Session& session) {
   if (!zones) return session.fail(in_name, zones.error());
 
   Stopwatch writing;
-  std::string out_name = options.output == "-" ? "standard output" : options.output;
+  const std::string out_name = output_name(options.output);
   plan->file.crs = data->crs;
   auto report = output::write_zones(options.output, *zones, plan->format, plan->file, session.context("writing"));
   if (!report) return session.fail(out_name, report.error());

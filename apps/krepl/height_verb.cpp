@@ -4,13 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
-#include <chrono>
 #include <memory>
 
 #include "input/place_reader.hpp"
 #include "krepl/drop_cutter.hpp"
 #include "output/output_stream.hpp"
 #include "output_target.hpp"
+#include "stopwatch.hpp"
 #include "terrain_options.hpp"
 #include "verbs.hpp"
 
@@ -25,13 +25,7 @@ constexpr std::size_t places_at_a_time = std::size_t{1} << 17;
 struct HeightOptions {
   TerrainOptions terrain;
   std::string radius, places, output;
-
-  std::string places_name() const { return places == "-" ? "standard input" : places; }
-  std::string output_name() const { return output == "-" ? "standard output" : output; }
 };
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 void append(std::string& text, double x) {
   char digits[32];
@@ -103,7 +97,7 @@ Result<Counts> write_heights(const std::string& path, const DropCutter& cutter, 
 }
 
 int run_height(const HeightOptions& options, Session& session) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch total;
   const Result<double> radius = parse_radius(options.radius);
   if (!radius) return session.fail("", radius.error());
   const Result<input::TerrainRequest> request = terrain_request(options.terrain);
@@ -114,21 +108,21 @@ int run_height(const HeightOptions& options, Session& session) {
     return session.fail(options.output, target.error());
 
   const Result<std::vector<Point>> places = input::read_places(options.places, session.context("reading"));
-  if (!places) return session.fail(options.places_name(), places.error());
+  if (!places) return session.fail(input_name(options.places), places.error());
   const Result<input::TerrainFile> file = input::read_terrain(*request, session.context("reading"));
   if (!file) return session.fail(options.terrain.name(), file.error());
-  tell_terrain(*file, options.terrain.name(), seconds_since(start), session);
+  tell_terrain(*file, options.terrain.name(), total.seconds(), session);
 
-  const Clock::time_point building = Clock::now();
+  const Stopwatch building;
   const Result<DropCutter> cutter = DropCutter::build(file->terrain, *radius, session.context("indexing"));
   if (!cutter) return session.fail(options.terrain.name(), cutter.error());
-  session.detail(fmt::format("index      {:.3f} s", seconds_since(building)));
-  const Clock::time_point dropping = Clock::now();
+  session.detail(fmt::format("index      {:.3f} s", building.seconds()));
+  const Stopwatch dropping;
   const Result<Counts> counts = write_heights(options.output, *cutter, *places, session.context("dropping"));
-  if (!counts) return session.fail(options.output_name(), counts.error());
-  session.detail(fmt::format("drop       {:.3f} s, with writing", seconds_since(dropping)));
+  if (!counts) return session.fail(output_name(options.output), counts.error());
+  session.detail(fmt::format("drop       {:.3f} s, with writing", dropping.seconds()));
   session.summary(fmt::format("{} places: {} on a face, {} on an edge, {} on a vertex, {} touch nothing; {:.3f} s",
-                              places->size(), (*counts)[2], (*counts)[1], (*counts)[0], (*counts)[3], seconds_since(start)),
+                              places->size(), (*counts)[2], (*counts)[1], (*counts)[0], (*counts)[3], total.seconds()),
                   options.output == "-");
   return 0;
 }

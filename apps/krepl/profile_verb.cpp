@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <memory>
 
 #include "input/geometry_source.hpp"
@@ -10,6 +9,7 @@
 #include "krepl/profile.hpp"
 #include "output_target.hpp"
 #include "profile_files.hpp"
+#include "stopwatch.hpp"
 #include "verbs.hpp"
 
 namespace krepl::app {
@@ -20,9 +20,6 @@ struct ProfileOptions {
   input::TerrainLineRequest input;
   std::string output, radius, format;
 };
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 struct Format {
   Status (*write)(const std::string& path, const Profile&, const Context&);
@@ -55,7 +52,7 @@ std::string summary_line(const Profile& profile, double seconds) {
 }
 
 int run_profile(const ProfileOptions& options, Session& session) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch total;
   const Result<double> radius = parse_radius(options.radius);
   if (!radius) return session.fail("", radius.error());
   const Result<Format> format = find_format(options);
@@ -63,23 +60,23 @@ int run_profile(const ProfileOptions& options, Session& session) {
   if (Status target = check_target(options.output, {options.input.path}); !target)
     return session.fail(options.output, target.error());
 
-  const std::string in_name = options.input.path == "-" ? "standard input" : options.input.path;
-  const std::string out_name = options.output == "-" ? "standard output" : options.output;
+  const std::string in_name = input_name(options.input.path);
+  const std::string out_name = output_name(options.output);
   Result<input::TerrainLine> data = input::read_terrain_line(options.input, session.context("reading"));
   if (!data) return session.fail(in_name, data.error());
   for (const std::string& note : data->notes) session.note(in_name, note);
-  session.detail(fmt::format("read       {:.3f} s: {} points", seconds_since(start), data->points.size()));
+  session.detail(fmt::format("read       {:.3f} s: {} points", total.seconds(), data->points.size()));
 
-  const Clock::time_point computing = Clock::now();
+  const Stopwatch computing;
   const Result<Profile> profile = compute_profile(std::move(data->points), *radius, session.context("computing"));
   if (!profile) return session.fail(in_name, profile.error());
-  tell(*profile, seconds_since(computing), session);
+  tell(*profile, computing.seconds(), session);
 
-  const Clock::time_point writing = Clock::now();
+  const Stopwatch writing;
   if (Status written = format->write(options.output, *profile, session.context("writing")); !written)
     return session.fail(out_name, written.error());
-  session.detail(fmt::format("write      {:.3f} s", seconds_since(writing)));
-  session.summary(summary_line(*profile, seconds_since(start)), options.output == "-");
+  session.detail(fmt::format("write      {:.3f} s", writing.seconds()));
+  session.summary(summary_line(*profile, total.seconds()), options.output == "-");
   return 0;
 }
 

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <memory>
 
 #include "krepl/surface.hpp"
 #include "output/surface_file.hpp"
 #include "output_target.hpp"
+#include "stopwatch.hpp"
 #include "terrain_options.hpp"
 #include "verbs.hpp"
 
@@ -19,8 +19,6 @@ struct TerrainVerbOptions {
   TerrainOptions terrain;
   std::string output, radius, format, engine = "auto", max_error, cell;
   int curve_points = 0, width = 0;
-
-  std::string output_name() const { return output == "-" ? "standard output" : output; }
 };
 
 /// What the options mean once they are checked; made before anything is read.
@@ -30,9 +28,6 @@ struct TerrainPlan {
   output::SurfaceFormat format;
   output::SurfaceFileOptions file;
 };
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 Status check_engine(const std::string& engine) {
   if (engine == "auto") return std::monostate{};
@@ -142,22 +137,22 @@ std::string summary_line(const Terrain& terrain, const std::string& surface, con
 Result<output::SurfaceFileReport> compute_and_write(const TerrainVerbOptions& options, const TerrainPlan& plan,
                                                     const input::TerrainFile& file, std::string& surface_text,
                                                     std::string& failed_file, Session& session) {
-  failed_file = options.output_name();
+  failed_file = output_name(options.output);
   if (!plan.format.needs_subdivision())
     return output::write_heights(options.output, file.terrain, plan.radius, plan.file, session.context("writing"));
-  const Clock::time_point computing = Clock::now();
+  const Stopwatch computing;
   const Result<Surface> surface = compute_surface(file.terrain, {plan.radius}, session.context("computing"));
   if (!surface) {
     failed_file = options.terrain.name();
     return surface.error();
   }
-  tell_counters(*surface, seconds_since(computing), session);
+  tell_counters(*surface, computing.seconds(), session);
   surface_text = surface_summary(*surface);
   return output::write_surface(options.output, *surface, plan.format, plan.file, session.context("writing"));
 }
 
 int run_terrain(const TerrainVerbOptions& options, Session& session) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch total;
   Result<TerrainPlan> plan = make_plan(options);
   if (!plan) return session.fail("", plan.error());
   if (Status target = check_target(options.output, {options.terrain.request.path}); !target)
@@ -165,16 +160,16 @@ int run_terrain(const TerrainVerbOptions& options, Session& session) {
 
   const Result<input::TerrainFile> file = input::read_terrain(plan->request, session.context("reading"));
   if (!file) return session.fail(options.terrain.name(), file.error());
-  tell_terrain(*file, options.terrain.name(), seconds_since(start), session);
+  tell_terrain(*file, options.terrain.name(), total.seconds(), session);
   plan->file.crs = file->crs;
 
-  const Clock::time_point computing = Clock::now();
+  const Stopwatch computing;
   std::string surface_text, failed_file;
   const auto report = compute_and_write(options, *plan, *file, surface_text, failed_file, session);
   if (!report) return session.fail(failed_file, report.error());
-  for (const std::string& note : report->notes) session.note(options.output_name(), note);
-  session.detail(fmt::format("total      {:.3f} s to compute and write", seconds_since(computing)));
-  session.summary(fmt::format("{}; {:.3f} s", summary_line(*file->terrain, surface_text, *report), seconds_since(start)),
+  for (const std::string& note : report->notes) session.note(output_name(options.output), note);
+  session.detail(fmt::format("total      {:.3f} s to compute and write", computing.seconds()));
+  session.summary(fmt::format("{}; {:.3f} s", summary_line(*file->terrain, surface_text, *report), total.seconds()),
                   options.output == "-");
   return 0;
 }
