@@ -3,12 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <charconv>
 #include <memory>
 
 #include "input/place_reader.hpp"
 #include "krepl/drop_cutter.hpp"
+#include "number_text.hpp"
 #include "output/output_stream.hpp"
+#include "output/surface_file.hpp"
 #include "output_target.hpp"
 #include "stopwatch.hpp"
 #include "terrain_options.hpp"
@@ -27,28 +28,14 @@ struct HeightOptions {
   std::string radius, places, output;
 };
 
-void append(std::string& text, double x) {
-  char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, x == 0 ? 0.0 : x).ptr);  // no -0
-}
-
-const char* kind_name(Terrain::FeatureKind kind) {
-  switch (kind) {
-    case Terrain::FeatureKind::vertex: return "vertex";
-    case Terrain::FeatureKind::edge: return "edge";
-    case Terrain::FeatureKind::face: return "face";
-  }
-  return "";
-}
-
 /// How many places touch a vertex, an edge, a face, or nothing.
 using Counts = std::array<std::size_t, 4>;
 
 /// One row: x,y,h,kind,px,py,pz.
 void append_row(std::string& text, Point place, const Contact& contact, const Terrain& terrain, Counts& counts) {
-  append(text, place.x);
+  append_number(text, place.x);
   text += ',';
-  append(text, place.y);
+  append_number(text, place.y);
   if (!contact.touches()) {
     ++counts[3];
     text += ",,,,,\n";
@@ -58,12 +45,12 @@ void append_row(std::string& text, Point place, const Contact& contact, const Te
   const Terrain::FeatureKind kind = terrain.feature_kind(contact.feature);
   ++counts[std::size_t(kind)];
   text += ',';
-  append(text, contact.height + origin.z);
+  append_number(text, contact.height + origin.z);
   text += ',';
-  text += kind_name(kind);
+  text += output::name_of(kind);
   for (const double x : {contact.point.x + origin.x, contact.point.y + origin.y, contact.point.z + origin.z}) {
     text += ',';
-    append(text, x);
+    append_number(text, x);
   }
   text += '\n';
 }
