@@ -92,23 +92,30 @@ EdgeCounts count_edges(const Surface& surface) {
   return counts;
 }
 
-/// How many faces belong to features of a kind: pieces of spheres, cylinders or planes.
-std::size_t count_faces(const Surface& surface, Terrain::FeatureKind kind) {
-  std::size_t count = 0;
+/// Faces by what they are pieces of: planes, cylinders or spheres.
+struct FaceCounts {
+  std::size_t planes = 0, cylinders = 0, spheres = 0;
+};
+
+FaceCounts count_faces(const Surface& surface) {
+  using Kind = Terrain::FeatureKind;
+  FaceCounts counts;
   for (std::size_t f = 0; f < surface.subdivision().face_count(); ++f) {
     const Surface::Index feature = surface.face_feature(Surface::Index(f));
-    if (feature != Surface::none && surface.terrain().feature_kind(feature) == kind) ++count;
+    if (feature == Surface::none) continue;
+    const Kind kind = surface.terrain().feature_kind(feature);
+    ++(kind == Kind::face ? counts.planes : kind == Kind::edge ? counts.cylinders : counts.spheres);
   }
-  return count;
+  return counts;
 }
 
 void tell_counters(const Surface& surface, double seconds, Session& session) {
+  if (!session.verbose) return;  // counting takes time
   const SurfaceCounters& c = surface.counters();
   session.detail(fmt::format("surface    {:.3f} s: radius {}, {} patches looked at", seconds, surface.radius(), c.patches));
-  using Kind = Terrain::FeatureKind;
-  session.detail(fmt::format("faces      {} of planes, {} of cylinders, {} of spheres",
-                             count_faces(surface, Kind::face), count_faces(surface, Kind::edge),
-                             count_faces(surface, Kind::vertex)));
+  const FaceCounts faces = count_faces(surface);
+  session.detail(fmt::format("faces      {} of planes, {} of cylinders, {} of spheres", faces.planes, faces.cylinders,
+                             faces.spheres));
   session.detail(fmt::format("cells      {} examined, {} settled, {} of them as small as the coordinates tell", c.cells,
                              c.leaves, c.smallest_cells));
   session.detail(fmt::format("sections   {} along cell sides, {} heights evaluated", c.lines, c.height_evaluations));
