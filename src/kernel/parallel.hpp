@@ -32,6 +32,13 @@ void reserve_pages(const Context& context, std::vector<T>& vector, std::size_t c
   });
 }
 
+/// vector.resize(count, value), the pages of new memory cleared as by reserve_pages.
+template <class T>
+void resize_pages(const Context& context, std::vector<T>& vector, std::size_t count, const T& value = {}) {
+  reserve_pages(context, vector, count);
+  vector.resize(count, value);
+}
+
 /// Adds up finished work from many threads and reports it as a fraction.
 class Progress {
  public:

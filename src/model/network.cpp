@@ -50,8 +50,7 @@ struct Welded {
 Welded weld(const std::vector<Point>& points, const Grid& grid, const Context& context) {
   const std::size_t n = points.size();
   std::vector<std::uint64_t> order;
-  kernel::reserve_pages(context, order, n);
-  order.resize(n);
+  kernel::resize_pages(context, order, n);
   Context quiet;
   quiet.threads = context.threads;
   kernel::parallel_blocks(quiet, n, block_size, [&](std::size_t first, std::size_t last) {
@@ -62,8 +61,7 @@ Welded weld(const std::vector<Point>& points, const Grid& grid, const Context& c
   Welded w;
   kernel::reserve_pages(context, w.vertices, n);
   kernel::reserve_pages(context, w.position, n);
-  kernel::reserve_pages(context, w.chain, n);
-  w.chain.resize(n);
+  kernel::resize_pages(context, w.chain, n);
   const auto before = [&](std::uint64_t i, std::uint64_t j) {
     const Point p = points[std::uint32_t(i)], q = points[std::uint32_t(j)];
     return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : i < j;
