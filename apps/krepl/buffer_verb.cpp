@@ -135,7 +135,8 @@ void add_buffer_verb(CLI::App& program, Session& session) {
       "buffer", "Buffer zone of lines, polygons and points, bounded by true arcs");
   verb->add_option("IN", options->input.path, "Vector file: any OGR format, .wkt (a geometry a line), .wkb, .gz of them, or -")
       ->required();
-  verb->add_option("OUT", options->output, "Result: .gpkg .fgb .wkt .wkb (curves), .svg .dxf (arcs), .geojson .shp ... (chords), or -")
+  verb->add_option("OUT", options->output,
+                   "Result: .gpkg .fgb .wkt .wkb (curves), .svg .dxf (arcs), .geojson .shp ... (chords), or -")
       ->required();
   verb->add_option("--radius", options->radius, "Radius of the disk, in the unit of the coordinates; several give nested zones")
       ->required()->type_name("R[,R2,...]");

@@ -36,10 +36,12 @@ Result<Format> find_format(const ProfileOptions& options) {
 
 void tell(const Profile& profile, double seconds, Session& session) {
   const ProfileCounters& c = profile.counters;
-  session.detail(fmt::format("profile    {:.3f} s: {} segments of positive length, {} pieces hidden by later ones, {} at once on the stack",
-                             seconds, c.segments, c.pops, c.largest_stack));
-  session.detail(fmt::format("predicates {} decided with twice the digits, {} of them ties; {} segments repeated between blocks",
-                             c.in_double_double, c.ties, c.replayed_segments));
+  session.detail(fmt::format(
+      "profile    {:.3f} s: {} segments of positive length, {} pieces hidden by later ones, {} at once on the stack",
+      seconds, c.segments, c.pops, c.largest_stack));
+  session.detail(
+      fmt::format("predicates {} decided with twice the digits, {} of them ties; {} segments repeated between blocks",
+                  c.in_double_double, c.ties, c.replayed_segments));
   session.detail(fmt::format("resolution {} pieces collapsed", c.collapsed_pieces));
 }
 

@@ -126,8 +126,9 @@ Result<ProfileRecord> profile_record(const CsvTable& table, const ProfileColumns
     return Error{ErrorCode::input, "kind '" + std::string(kind.substr(0, 40)) + "' is not half_line, segment or arc",
                  table.place(), ""};
   const bool half_line = record.kind == ProfileRecord::Kind::half_line;
-  const std::pair<std::size_t, double*> values[] = {{c.x0, &record.start.x}, {c.y0, &record.start.y}, {c.x1, &record.end.x},
-                                                    {c.y1, &record.end.y},   {c.cx, &record.center.x}, {c.cy, &record.center.y}};
+  const std::pair<std::size_t, double*> values[] = {{c.x0, &record.start.x},  {c.y0, &record.start.y},
+                                                    {c.x1, &record.end.x},    {c.y1, &record.end.y},
+                                                    {c.cx, &record.center.x}, {c.cy, &record.center.y}};
   for (const auto& [column, value] : values) {
     const bool center = column == c.cx || column == c.cy;
     if (center && record.kind != ProfileRecord::Kind::arc) continue;

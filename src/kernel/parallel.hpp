@@ -16,8 +16,9 @@ namespace krepl::kernel {
 bool parallel_blocks(const Context& context, std::size_t count, std::size_t block,
                      const std::function<void(std::size_t first, std::size_t last)>& work);
 
-/// Memory for `count` elements whose pages are already there: the system clears a page when it is first written to, which for large
-/// arrays takes longer than filling them, and all threads share that here. The vector's size does not change.
+/// Memory for `count` elements whose pages are already there: the system clears a page when it is first written to,
+/// which for large arrays takes longer than filling them, and all threads share that here. The vector's size does not
+/// change.
 template <class T>
 void reserve_pages(const Context& context, std::vector<T>& vector, std::size_t count) {
   vector.reserve(count);

@@ -25,7 +25,8 @@ Result<SurfaceMesh> make_mesh(const Surface& surface, const SurfaceFileOptions& 
   report.deviation = mesh->deviation;
   report.triangles = mesh->triangles.size();
   if (mesh->folded > 0) {
-    report.notes.push_back(fmt::format("note: {} triangles in faces narrower than the deviation are seen from below", mesh->folded));
+    report.notes.push_back(
+        fmt::format("note: {} triangles in faces narrower than the deviation are seen from below", mesh->folded));
   }
   return mesh;
 }
@@ -36,7 +37,8 @@ Point3 float_origin(const Surface& surface, double max_error) {
   for (const double value : {o.x + low.x, o.x + high.x, o.y + low.y, o.y + high.y, o.z + low.z, o.z + high.z})
     largest = std::max(largest, std::fabs(value));
   if (largest * 0x1p-24 <= max_error / 50) return {0, 0, 0};
-  return {std::round(o.x + (low.x + high.x) / 2), std::round(o.y + (low.y + high.y) / 2), std::round(o.z + (low.z + high.z) / 2)};
+  return {std::round(o.x + (low.x + high.x) / 2), std::round(o.y + (low.y + high.y) / 2),
+          std::round(o.z + (low.z + high.z) / 2)};
 }
 
 }  // namespace krepl::output

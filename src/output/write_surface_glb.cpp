@@ -113,7 +113,8 @@ Status GlbMesh::write(OutputStream& stream, const Context& context) const {
   const std::string head = json();
   fmt::memory_buffer bytes;
   constexpr std::uint32_t magic = 0x46546c67, json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
-  for (const std::size_t value : {std::size_t{magic}, std::size_t{2}, 28 + head.size() + binary_size(), head.size(), std::size_t{json_chunk}})
+  for (const std::size_t value :
+       {std::size_t{magic}, std::size_t{2}, 28 + head.size() + binary_size(), head.size(), std::size_t{json_chunk}})
     put_binary(bytes, std::uint32_t(value));
   bytes.append(head);
   put_binary(bytes, std::uint32_t(binary_size()));

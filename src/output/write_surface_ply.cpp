@@ -70,9 +70,11 @@ SurfaceWriteResult write_surface_ply(const std::string& path, const Surface& sur
   if (!mesh) return mesh.error();
   const PlyMesh ply(surface, *mesh);
   stream->write(ply.header());
-  Status written = write_items(*stream, ply.vertex_count(), context, [&](auto& bytes, std::size_t i) { ply.put_vertex(bytes, i); });
+  Status written =
+      write_items(*stream, ply.vertex_count(), context, [&](auto& bytes, std::size_t i) { ply.put_vertex(bytes, i); });
   if (!written) return written.error();
-  written = write_items(*stream, mesh->triangles.size(), context, [&](auto& bytes, std::size_t i) { ply.put_triangle(bytes, i); });
+  written = write_items(*stream, mesh->triangles.size(), context,
+                        [&](auto& bytes, std::size_t i) { ply.put_triangle(bytes, i); });
   if (!written) return written.error();
   if (Status finished = stream->finish(); !finished) return finished.error();
   return report;

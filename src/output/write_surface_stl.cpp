@@ -35,7 +35,8 @@ SurfaceWriteResult write_surface_stl(const std::string& path, const Surface& sur
   std::string header = "krepl surface";
   if (!(off == Point3{})) {
     header = fmt::format("krepl surface, moved by {} {} {}", -off.x, -off.y, -off.z);
-    report.notes.push_back(fmt::format("note: coordinates are relative to {} {} {}: STL has single precision only", off.x, off.y, off.z));
+    report.notes.push_back(
+        fmt::format("note: coordinates are relative to {} {} {}: STL has single precision only", off.x, off.y, off.z));
   }
   header.resize(80, ' ');
   stream->write(header);

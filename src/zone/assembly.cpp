@@ -7,8 +7,8 @@ namespace krepl {
 using zone::Index;
 using zone::none;
 
-Zone ZoneAssembly::assemble(std::shared_ptr<const Network> network, double radius, zone::Rings rings, const zone::Nesting& nesting, const ZoneCounters& counters,
-                            const Context& context) {
+Zone ZoneAssembly::assemble(std::shared_ptr<const Network> network, double radius, zone::Rings rings,
+                            const zone::Nesting& nesting, const ZoneCounters& counters, const Context& context) {
   Zone zone;
   zone.radius_ = radius;
   zone.network_ = std::move(network);
