@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/box_tree.hpp"
 #include "kernel/hilbert.hpp"
 #include "kernel/parallel.hpp"
 #include "kernel/radix_sort.hpp"
@@ -15,14 +16,7 @@ namespace {
 constexpr std::size_t block_size = 1 << 16;
 constexpr std::size_t most_vertices = std::size_t{1} << 28;  // what searches pack into one number
 
-struct Box {
-  double min_x = std::numeric_limits<double>::infinity(), min_y = min_x;
-  double max_x = -min_x, max_y = -min_x;
-  void add(Point p) {
-    min_x = std::min(min_x, p.x), max_x = std::max(max_x, p.x);
-    min_y = std::min(min_y, p.y), max_y = std::max(max_y, p.y);
-  }
-};
+using kernel::Box;
 
 /// Maps coordinates to the Hilbert curve's grid.
 class Grid {
