@@ -5,15 +5,9 @@
 
 namespace krepl::output {
 
-std::array<std::uint8_t, 3> patch_colour(Terrain::FeatureKind kind) {
-  switch (kind) {
-    case Terrain::FeatureKind::face: return {232, 217, 179};
-    case Terrain::FeatureKind::edge: return {120, 171, 214};
-    case Terrain::FeatureKind::vertex: return {227, 115, 87};
-  }
-  return {};
-}
+namespace {
 
+/// The triangles within the deviation asked for, and the report about them.
 Result<SurfaceMesh> make_mesh(const Surface& surface, const SurfaceFileOptions& options, const Context& context,
                               SurfaceFileReport& report) {
   const double max_error = surface_max_error(options, surface.radius());
@@ -29,6 +23,30 @@ Result<SurfaceMesh> make_mesh(const Surface& surface, const SurfaceFileOptions& 
         fmt::format("note: {} triangles in faces narrower than the deviation are seen from below", mesh->folded));
   }
   return mesh;
+}
+
+}  // namespace
+
+std::array<std::uint8_t, 3> patch_colour(Terrain::FeatureKind kind) {
+  switch (kind) {
+    case Terrain::FeatureKind::face: return {232, 217, 179};
+    case Terrain::FeatureKind::edge: return {120, 171, 214};
+    case Terrain::FeatureKind::vertex: return {227, 115, 87};
+  }
+  return {};
+}
+
+SurfaceWriteResult write_mesh(const std::string& path, const Surface& surface, const SurfaceFileOptions& options,
+                              const Context& context,
+                              const std::function<Status(OutputStream&, const SurfaceMesh&, SurfaceFileReport&)>& put) {
+  Result<OutputStream> stream = OutputStream::open(path);
+  if (!stream) return stream.error();
+  SurfaceFileReport report;
+  const Result<SurfaceMesh> mesh = make_mesh(surface, options, context, report);
+  if (!mesh) return mesh.error();
+  if (Status written = put(*stream, *mesh, report); !written) return written.error();
+  if (Status finished = stream->finish(); !finished) return finished.error();
+  return report;
 }
 
 Point3 float_origin(const Surface& surface, double max_error) {
