@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
-#include <filesystem>
 
 #include "input/network_reader.hpp"
 #include "krepl/zone.hpp"
-#include "output/atomic_file.hpp"
 #include "output/zone_file.hpp"
+#include "output_target.hpp"
+#include "stopwatch.hpp"
 #include "verbs.hpp"
 
 namespace krepl::app {
@@ -25,14 +24,6 @@ struct BufferPlan {
   std::vector<double> radii;
   output::ZoneFormat format;
   output::ZoneFileOptions file;
-};
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 Status check_engine(const std::string& engine) {
@@ -104,27 +95,15 @@ Result<std::vector<Zone>> compute_zones(const input::NetworkData& data, const Bu
   return zones;
 }
 
-/// Fails now rather than after a long computation: tries the place of the result, and leaves nothing there.
-Status check_output(const std::string& path, const std::string& input) {
-  if (output::is_stream_target(path)) return std::monostate{};
-  std::error_code not_there;
-  if (std::filesystem::equivalent(path, input, not_there)) {
-    return Error{ErrorCode::usage, "is the input, which would be lost", "", "name another file for the result"};
-  }
-  Result<output::AtomicFile> file = output::AtomicFile::create(path);
-  if (!file) return file.error();
-  return std::monostate{};
-}
-
 int run_buffer(const BufferOptions& options, Session& session) {
   Stopwatch total;
   Result<BufferPlan> plan = make_plan(options);
   if (!plan) return session.fail("", plan.error());
-  if (Status writable = check_output(options.output, options.input.path); !writable) return session.fail(options.output, writable.error());
+  if (Status target = check_target(options.output, {options.input.path}); !target)
+    return session.fail(options.output, target.error());
 
   Stopwatch reading;
-  const std::string& in = options.input.path;
-  std::string in_name = in == "-" ? "standard input" : in;
+  const std::string in_name = input_name(options.input.path);
   Result<input::NetworkData> data = input::read_network(options.input, session.context("reading"));
   if (!data) return session.fail(in_name, data.error());
   for (const std::string& note : data->notes) session.note(in_name, note);
@@ -134,7 +113,7 @@ int run_buffer(const BufferOptions& options, Session& session) {
   if (!zones) return session.fail(in_name, zones.error());
 
   Stopwatch writing;
-  std::string out_name = options.output == "-" ? "standard output" : options.output;
+  const std::string out_name = output_name(options.output);
   plan->file.crs = data->crs;
   auto report = output::write_zones(options.output, *zones, plan->format, plan->file, session.context("writing"));
   if (!report) return session.fail(out_name, report.error());
@@ -156,7 +135,8 @@ void add_buffer_verb(CLI::App& program, Session& session) {
       "buffer", "Buffer zone of lines, polygons and points, bounded by true arcs");
   verb->add_option("IN", options->input.path, "Vector file: any OGR format, .wkt (a geometry a line), .wkb, .gz of them, or -")
       ->required();
-  verb->add_option("OUT", options->output, "Result: .gpkg .fgb .wkt .wkb (curves), .svg .dxf (arcs), .geojson .shp ... (chords), or -")
+  verb->add_option("OUT", options->output,
+                   "Result: .gpkg .fgb .wkt .wkb (curves), .svg .dxf (arcs), .geojson .shp ... (chords), or -")
       ->required();
   verb->add_option("--radius", options->radius, "Radius of the disk, in the unit of the coordinates; several give nested zones")
       ->required()->type_name("R[,R2,...]");

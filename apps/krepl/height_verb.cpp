@@ -3,15 +3,15 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <charconv>
-#include <chrono>
-#include <filesystem>
 #include <memory>
 
 #include "input/place_reader.hpp"
 #include "krepl/drop_cutter.hpp"
-#include "output/atomic_file.hpp"
+#include "number_text.hpp"
 #include "output/output_stream.hpp"
+#include "output/surface_file.hpp"
+#include "output_target.hpp"
+#include "stopwatch.hpp"
 #include "terrain_options.hpp"
 #include "verbs.hpp"
 
@@ -26,36 +26,16 @@ constexpr std::size_t places_at_a_time = std::size_t{1} << 17;
 struct HeightOptions {
   TerrainOptions terrain;
   std::string radius, places, output;
-
-  std::string places_name() const { return places == "-" ? "standard input" : places; }
-  std::string output_name() const { return output == "-" ? "standard output" : output; }
 };
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-void append(std::string& text, double x) {
-  char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, x == 0 ? 0.0 : x).ptr);  // no -0
-}
-
-const char* kind_name(Terrain::FeatureKind kind) {
-  switch (kind) {
-    case Terrain::FeatureKind::vertex: return "vertex";
-    case Terrain::FeatureKind::edge: return "edge";
-    case Terrain::FeatureKind::face: return "face";
-  }
-  return "";
-}
 
 /// How many places touch a vertex, an edge, a face, or nothing.
 using Counts = std::array<std::size_t, 4>;
 
 /// One row: x,y,h,kind,px,py,pz.
 void append_row(std::string& text, Point place, const Contact& contact, const Terrain& terrain, Counts& counts) {
-  append(text, place.x);
+  append_number(text, place.x);
   text += ',';
-  append(text, place.y);
+  append_number(text, place.y);
   if (!contact.touches()) {
     ++counts[3];
     text += ",,,,,\n";
@@ -65,27 +45,14 @@ void append_row(std::string& text, Point place, const Contact& contact, const Te
   const Terrain::FeatureKind kind = terrain.feature_kind(contact.feature);
   ++counts[std::size_t(kind)];
   text += ',';
-  append(text, contact.height + origin.z);
+  append_number(text, contact.height + origin.z);
   text += ',';
-  text += kind_name(kind);
+  text += output::name_of(kind);
   for (const double x : {contact.point.x + origin.x, contact.point.y + origin.y, contact.point.z + origin.z}) {
     text += ',';
-    append(text, x);
+    append_number(text, x);
   }
   text += '\n';
-}
-
-/// Fails before a long computation rather than after it, and leaves nothing in the result's place.
-Status check_target(const HeightOptions& options) {
-  if (output::is_stream_target(options.output)) return std::monostate{};
-  for (const std::string& input : {options.terrain.request.path, options.places}) {
-    std::error_code not_there;
-    if (std::filesystem::equivalent(options.output, input, not_there))
-      return Error{ErrorCode::usage, "is an input, which would be lost", "", "name another file for the result"};
-  }
-  Result<output::AtomicFile> file = output::AtomicFile::create(options.output);
-  if (!file) return file.error();
-  return std::monostate{};
 }
 
 /// Lowers the ball at all places and writes a row for each, portion by portion.
@@ -117,31 +84,32 @@ Result<Counts> write_heights(const std::string& path, const DropCutter& cutter, 
 }
 
 int run_height(const HeightOptions& options, Session& session) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch total;
   const Result<double> radius = parse_radius(options.radius);
   if (!radius) return session.fail("", radius.error());
   const Result<input::TerrainRequest> request = terrain_request(options.terrain);
   if (!request) return session.fail("", request.error());
   if (options.places == "-" && request->path == "-")
     return session.fail("", {ErrorCode::usage, "IN and --at are both standard input", "", "name a file for one of them"});
-  if (Status target = check_target(options); !target) return session.fail(options.output, target.error());
+  if (Status target = check_target(options.output, {request->path, options.places}); !target)
+    return session.fail(options.output, target.error());
 
   const Result<std::vector<Point>> places = input::read_places(options.places, session.context("reading"));
-  if (!places) return session.fail(options.places_name(), places.error());
+  if (!places) return session.fail(input_name(options.places), places.error());
   const Result<input::TerrainFile> file = input::read_terrain(*request, session.context("reading"));
   if (!file) return session.fail(options.terrain.name(), file.error());
-  tell_terrain(*file, options.terrain.name(), seconds_since(start), session);
+  tell_terrain(*file, options.terrain.name(), total.seconds(), session);
 
-  const Clock::time_point building = Clock::now();
+  const Stopwatch building;
   const Result<DropCutter> cutter = DropCutter::build(file->terrain, *radius, session.context("indexing"));
   if (!cutter) return session.fail(options.terrain.name(), cutter.error());
-  session.detail(fmt::format("index      {:.3f} s", seconds_since(building)));
-  const Clock::time_point dropping = Clock::now();
+  session.detail(fmt::format("index      {:.3f} s", building.seconds()));
+  const Stopwatch dropping;
   const Result<Counts> counts = write_heights(options.output, *cutter, *places, session.context("dropping"));
-  if (!counts) return session.fail(options.output_name(), counts.error());
-  session.detail(fmt::format("drop       {:.3f} s, with writing", seconds_since(dropping)));
+  if (!counts) return session.fail(output_name(options.output), counts.error());
+  session.detail(fmt::format("drop       {:.3f} s, with writing", dropping.seconds()));
   session.summary(fmt::format("{} places: {} on a face, {} on an edge, {} on a vertex, {} touch nothing; {:.3f} s",
-                              places->size(), (*counts)[2], (*counts)[1], (*counts)[0], (*counts)[3], seconds_since(start)),
+                              places->size(), (*counts)[2], (*counts)[1], (*counts)[0], (*counts)[3], total.seconds()),
                   options.output == "-");
   return 0;
 }

@@ -37,7 +37,8 @@ void watch() {
   }
   ::poll(nullptr, 0, grace_milliseconds);
   output::abandon_temporary_files();
-  if (!reported.exchange(true)) std::fputs(::isatty(STDERR_FILENO) != 0 ? "\r\033[Kkrepl: interrupted\n" : "krepl: interrupted\n", stderr);
+  if (!reported.exchange(true))
+    std::fputs(::isatty(STDERR_FILENO) != 0 ? "\r\033[Kkrepl: interrupted\n" : "krepl: interrupted\n", stderr);
   ::_exit(interrupted_status);
 }
 

@@ -1,9 +1,9 @@
 #include "profile_files.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "number_text.hpp"
 #include "output/output_stream.hpp"
 
 namespace krepl::app {
@@ -12,19 +12,10 @@ namespace {
 
 constexpr std::size_t rows_at_a_time = 8192;
 
-void append(std::string& text, double x) {
-  if (std::isinf(x)) {
-    text += x < 0 ? "-inf" : "inf";
-    return;
-  }
-  char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, x == 0 ? 0.0 : x).ptr);  // no -0
-}
-
 void append(std::string& text, Point p, char between) {
-  append(text, p.x);
+  append_number(text, p.x);
   text += between;
-  append(text, p.y);
+  append_number(text, p.y);
 }
 
 const char* kind_name(ProfilePiece::Kind kind) {
@@ -93,13 +84,13 @@ Frame frame_of(const Profile& profile) {
 void begin_svg(std::string& text, const Frame& frame, double radius) {
   const double pixels_x = 1200, pixels_y = std::clamp(pixels_x * frame.height / frame.width, 60.0, 1200.0);
   text += "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"";
-  append(text, pixels_x);
+  append_number(text, pixels_x);
   text += "\" height=\"";
-  append(text, std::round(pixels_y));
+  append_number(text, std::round(pixels_y));
   text += "\" viewBox=\"0 0 ";
   append(text, {frame.width, frame.height}, ' ');
   text += "\">\n<title>Terrain (+) disk of radius ";
-  append(text, radius);
+  append_number(text, radius);
   text += "</title>\n<style>path{stroke-width:1.2;vector-effect:non-scaling-stroke;stroke-linejoin:round}"
           "#sum{fill:#cfe3f5;stroke:#1f6fb2}#terrain{fill:#8a7a66;stroke:#4d4336}</style>\n";
 }
@@ -140,7 +131,7 @@ Status write_profile_svg(const std::string& path, const Profile& profile, const 
     if (!out.next()) return out.finish();
   }
   out.text += "\nV";
-  append(out.text, frame.height);
+  append_number(out.text, frame.height);
   out.text += "\"/>\n<path id=\"terrain\" d=\"M";
   append(out.text, {frame.map(profile.terrain.front()).x, frame.height}, ' ');
   for (const Point& p : profile.terrain) {
@@ -149,7 +140,7 @@ Status write_profile_svg(const std::string& path, const Profile& profile, const 
     if (!out.next()) return out.finish();
   }
   out.text += "\nV";
-  append(out.text, frame.height);
+  append_number(out.text, frame.height);
   out.text += "\"/>\n</svg>\n";
   return out.finish();
 }

@@ -2,15 +2,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
-#include <filesystem>
 #include <memory>
 
 #include "input/geometry_source.hpp"
 #include "input/profile_reader.hpp"
 #include "krepl/profile.hpp"
-#include "output/atomic_file.hpp"
+#include "output_target.hpp"
 #include "profile_files.hpp"
+#include "stopwatch.hpp"
 #include "verbs.hpp"
 
 namespace krepl::app {
@@ -21,9 +20,6 @@ struct ProfileOptions {
   input::TerrainLineRequest input;
   std::string output, radius, format;
 };
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 struct Format {
   Status (*write)(const std::string& path, const Profile&, const Context&);
@@ -38,23 +34,14 @@ Result<Format> find_format(const ProfileOptions& options) {
   return Error{ErrorCode::usage, what, "", "profiles are written as csv or svg; see --format"};
 }
 
-/// Fails before a long computation rather than after it, and leaves nothing in the result's place.
-Status check_target(const ProfileOptions& options) {
-  if (output::is_stream_target(options.output)) return std::monostate{};
-  std::error_code not_there;
-  if (std::filesystem::equivalent(options.output, options.input.path, not_there))
-    return Error{ErrorCode::usage, "is the input, which would be lost", "", "name another file for the result"};
-  Result<output::AtomicFile> file = output::AtomicFile::create(options.output);
-  if (!file) return file.error();
-  return std::monostate{};
-}
-
 void tell(const Profile& profile, double seconds, Session& session) {
   const ProfileCounters& c = profile.counters;
-  session.detail(fmt::format("profile    {:.3f} s: {} segments of positive length, {} pieces hidden by later ones, {} at once on the stack",
-                             seconds, c.segments, c.pops, c.largest_stack));
-  session.detail(fmt::format("predicates {} decided with twice the digits, {} of them ties; {} segments repeated between blocks",
-                             c.in_double_double, c.ties, c.replayed_segments));
+  session.detail(fmt::format(
+      "profile    {:.3f} s: {} segments of positive length, {} pieces hidden by later ones, {} at once on the stack",
+      seconds, c.segments, c.pops, c.largest_stack));
+  session.detail(
+      fmt::format("predicates {} decided with twice the digits, {} of them ties; {} segments repeated between blocks",
+                  c.in_double_double, c.ties, c.replayed_segments));
   session.detail(fmt::format("resolution {} pieces collapsed", c.collapsed_pieces));
 }
 
@@ -67,30 +54,31 @@ std::string summary_line(const Profile& profile, double seconds) {
 }
 
 int run_profile(const ProfileOptions& options, Session& session) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch total;
   const Result<double> radius = parse_radius(options.radius);
   if (!radius) return session.fail("", radius.error());
   const Result<Format> format = find_format(options);
   if (!format) return session.fail("", format.error());
-  if (Status target = check_target(options); !target) return session.fail(options.output, target.error());
+  if (Status target = check_target(options.output, {options.input.path}); !target)
+    return session.fail(options.output, target.error());
 
-  const std::string in_name = options.input.path == "-" ? "standard input" : options.input.path;
-  const std::string out_name = options.output == "-" ? "standard output" : options.output;
+  const std::string in_name = input_name(options.input.path);
+  const std::string out_name = output_name(options.output);
   Result<input::TerrainLine> data = input::read_terrain_line(options.input, session.context("reading"));
   if (!data) return session.fail(in_name, data.error());
   for (const std::string& note : data->notes) session.note(in_name, note);
-  session.detail(fmt::format("read       {:.3f} s: {} points", seconds_since(start), data->points.size()));
+  session.detail(fmt::format("read       {:.3f} s: {} points", total.seconds(), data->points.size()));
 
-  const Clock::time_point computing = Clock::now();
+  const Stopwatch computing;
   const Result<Profile> profile = compute_profile(std::move(data->points), *radius, session.context("computing"));
   if (!profile) return session.fail(in_name, profile.error());
-  tell(*profile, seconds_since(computing), session);
+  tell(*profile, computing.seconds(), session);
 
-  const Clock::time_point writing = Clock::now();
+  const Stopwatch writing;
   if (Status written = format->write(options.output, *profile, session.context("writing")); !written)
     return session.fail(out_name, written.error());
-  session.detail(fmt::format("write      {:.3f} s", seconds_since(writing)));
-  session.summary(summary_line(*profile, seconds_since(start)), options.output == "-");
+  session.detail(fmt::format("write      {:.3f} s", writing.seconds()));
+  session.summary(summary_line(*profile, total.seconds()), options.output == "-");
   return 0;
 }
 

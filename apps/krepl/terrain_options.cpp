@@ -31,6 +31,8 @@ Result<Terrain::Split> parse_split(const std::string& text) {
 
 }  // namespace
 
+std::string TerrainOptions::name() const { return input_name(request.path); }
+
 void add_terrain_options(CLI::App& verb, TerrainOptions& options) {
   verb.add_option("IN", options.request.path,
                   "Terrain or part: any GDAL raster, .stl .obj .ply .off, .gz of them, or -")

@@ -18,7 +18,7 @@ struct TerrainOptions {
   input::TerrainRequest request;
   std::string z_scale, split;  ///< as given
 
-  std::string name() const { return request.path == "-" ? "standard input" : request.path; }
+  std::string name() const;  ///< as messages have it
 };
 
 /// Declares IN and the options --crs, --to-crs, --z-scale, --split and --band. `options` must live until the verb has

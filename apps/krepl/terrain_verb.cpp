@@ -2,13 +2,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
-#include <filesystem>
 #include <memory>
 
 #include "krepl/surface.hpp"
-#include "output/atomic_file.hpp"
 #include "output/surface_file.hpp"
+#include "output_target.hpp"
+#include "stopwatch.hpp"
 #include "terrain_options.hpp"
 #include "verbs.hpp"
 
@@ -20,8 +19,6 @@ struct TerrainVerbOptions {
   TerrainOptions terrain;
   std::string output, radius, format, engine = "auto", max_error, cell;
   int curve_points = 0, width = 0;
-
-  std::string output_name() const { return output == "-" ? "standard output" : output; }
 };
 
 /// What the options mean once they are checked; made before anything is read.
@@ -31,9 +28,6 @@ struct TerrainPlan {
   output::SurfaceFormat format;
   output::SurfaceFileOptions file;
 };
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 Status check_engine(const std::string& engine) {
   if (engine == "auto") return std::monostate{};
@@ -85,17 +79,6 @@ Result<TerrainPlan> make_plan(const TerrainVerbOptions& options) {
   return plan;
 }
 
-/// Fails before a long computation rather than after it, and leaves nothing in the result's place.
-Status check_target(const std::string& path, const std::string& input) {
-  if (output::is_stream_target(path)) return std::monostate{};
-  std::error_code not_there;
-  if (std::filesystem::equivalent(path, input, not_there))
-    return Error{ErrorCode::usage, "is the input, which would be lost", "", "name another file for the result"};
-  Result<output::AtomicFile> file = output::AtomicFile::create(path);
-  if (!file) return file.error();
-  return std::monostate{};
-}
-
 struct EdgeCounts {
   std::size_t seams = 0, valleys = 0, rims = 0;
 };
@@ -109,23 +92,30 @@ EdgeCounts count_edges(const Surface& surface) {
   return counts;
 }
 
-/// How many faces belong to features of a kind: pieces of spheres, cylinders or planes.
-std::size_t count_faces(const Surface& surface, Terrain::FeatureKind kind) {
-  std::size_t count = 0;
+/// Faces by what they are pieces of: planes, cylinders or spheres.
+struct FaceCounts {
+  std::size_t planes = 0, cylinders = 0, spheres = 0;
+};
+
+FaceCounts count_faces(const Surface& surface) {
+  using Kind = Terrain::FeatureKind;
+  FaceCounts counts;
   for (std::size_t f = 0; f < surface.subdivision().face_count(); ++f) {
     const Surface::Index feature = surface.face_feature(Surface::Index(f));
-    if (feature != Surface::none && surface.terrain().feature_kind(feature) == kind) ++count;
+    if (feature == Surface::none) continue;
+    const Kind kind = surface.terrain().feature_kind(feature);
+    ++(kind == Kind::face ? counts.planes : kind == Kind::edge ? counts.cylinders : counts.spheres);
   }
-  return count;
+  return counts;
 }
 
 void tell_counters(const Surface& surface, double seconds, Session& session) {
+  if (!session.verbose) return;  // counting takes time
   const SurfaceCounters& c = surface.counters();
   session.detail(fmt::format("surface    {:.3f} s: radius {}, {} patches looked at", seconds, surface.radius(), c.patches));
-  using Kind = Terrain::FeatureKind;
-  session.detail(fmt::format("faces      {} of planes, {} of cylinders, {} of spheres",
-                             count_faces(surface, Kind::face), count_faces(surface, Kind::edge),
-                             count_faces(surface, Kind::vertex)));
+  const FaceCounts faces = count_faces(surface);
+  session.detail(fmt::format("faces      {} of planes, {} of cylinders, {} of spheres", faces.planes, faces.cylinders,
+                             faces.spheres));
   session.detail(fmt::format("cells      {} examined, {} settled, {} of them as small as the coordinates tell", c.cells,
                              c.leaves, c.smallest_cells));
   session.detail(fmt::format("sections   {} along cell sides, {} heights evaluated", c.lines, c.height_evaluations));
@@ -154,39 +144,39 @@ std::string summary_line(const Terrain& terrain, const std::string& surface, con
 Result<output::SurfaceFileReport> compute_and_write(const TerrainVerbOptions& options, const TerrainPlan& plan,
                                                     const input::TerrainFile& file, std::string& surface_text,
                                                     std::string& failed_file, Session& session) {
-  failed_file = options.output_name();
+  failed_file = output_name(options.output);
   if (!plan.format.needs_subdivision())
     return output::write_heights(options.output, file.terrain, plan.radius, plan.file, session.context("writing"));
-  const Clock::time_point computing = Clock::now();
+  const Stopwatch computing;
   const Result<Surface> surface = compute_surface(file.terrain, {plan.radius}, session.context("computing"));
   if (!surface) {
     failed_file = options.terrain.name();
     return surface.error();
   }
-  tell_counters(*surface, seconds_since(computing), session);
+  tell_counters(*surface, computing.seconds(), session);
   surface_text = surface_summary(*surface);
   return output::write_surface(options.output, *surface, plan.format, plan.file, session.context("writing"));
 }
 
 int run_terrain(const TerrainVerbOptions& options, Session& session) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch total;
   Result<TerrainPlan> plan = make_plan(options);
   if (!plan) return session.fail("", plan.error());
-  if (Status target = check_target(options.output, options.terrain.request.path); !target)
+  if (Status target = check_target(options.output, {options.terrain.request.path}); !target)
     return session.fail(options.output, target.error());
 
   const Result<input::TerrainFile> file = input::read_terrain(plan->request, session.context("reading"));
   if (!file) return session.fail(options.terrain.name(), file.error());
-  tell_terrain(*file, options.terrain.name(), seconds_since(start), session);
+  tell_terrain(*file, options.terrain.name(), total.seconds(), session);
   plan->file.crs = file->crs;
 
-  const Clock::time_point computing = Clock::now();
+  const Stopwatch computing;
   std::string surface_text, failed_file;
   const auto report = compute_and_write(options, *plan, *file, surface_text, failed_file, session);
   if (!report) return session.fail(failed_file, report.error());
-  for (const std::string& note : report->notes) session.note(options.output_name(), note);
-  session.detail(fmt::format("total      {:.3f} s to compute and write", seconds_since(computing)));
-  session.summary(fmt::format("{}; {:.3f} s", summary_line(*file->terrain, surface_text, *report), seconds_since(start)),
+  for (const std::string& note : report->notes) session.note(output_name(options.output), note);
+  session.detail(fmt::format("total      {:.3f} s to compute and write", computing.seconds()));
+  session.summary(fmt::format("{}; {:.3f} s", summary_line(*file->terrain, surface_text, *report), total.seconds()),
                   options.output == "-");
   return 0;
 }

@@ -71,6 +71,10 @@ class Session {
   int drawn_percent_ = -1;
 };
 
+/// What messages call a file: `-` is a standard stream.
+inline std::string input_name(const std::string& path) { return path == "-" ? "standard input" : path; }
+inline std::string output_name(const std::string& path) { return path == "-" ? "standard output" : path; }
+
 /// One or more radii separated by commas, each finite and positive; an Error of code usage names what is wrong.
 Result<std::vector<double>> parse_radii(std::string_view text);
 /// Exactly one radius, finite and positive.

@@ -95,7 +95,7 @@ int run_view(const ViewOptions& options, Session& session) {
     page->layers.push_back(std::move(*layer));
   }
   const std::string html = view::render_page(*page);
-  const std::string out_name = options.output == "-" ? "standard output" : options.output;
+  const std::string out_name = output_name(options.output);
   auto stream = output::OutputStream::open(options.output);
   if (!stream) return session.fail(out_name, stream.error());
   stream->write(html);

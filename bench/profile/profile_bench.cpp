@@ -103,7 +103,10 @@ void add(Kind kind, double radius, std::size_t segments, bool all_ways) {
     return std::string(text);
   };
   const auto add_one = [&](const char* way, auto work) {
-    benchmark::RegisterBenchmark(label(way).c_str(), work)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+    benchmark::RegisterBenchmark(label(way).c_str(), work)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime()
+        ->MeasureProcessCPUTime();
   };
   add_one("one", [=](benchmark::State& s) { run(s, kind, radius, segments, 1); });
   if (!all_ways) return;

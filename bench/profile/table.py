@@ -63,8 +63,10 @@ def main():
     for kind in dict.fromkeys(kind for _, kind, _, _ in runs):
         cells = []
         for r in radii:
-            run = next((v for (way, k, rr, n), v in runs.items() if way == "one" and k == kind and rr == r and power(n) == "1e6"), None)
-            cells.append(f"{nanoseconds(run):.1f} ({run['pieces_per_segment']:.2f}; {run['higher_precision']:.2f})" if run else "-")
+            run = next((v for (way, k, rr, n), v in runs.items()
+                        if way == "one" and k == kind and rr == r and power(n) == "1e6"), None)
+            cells.append(f"{nanoseconds(run):.1f} ({run['pieces_per_segment']:.2f}; {run['higher_precision']:.2f})"
+                         if run else "-")
         print(row([kind, *cells]))
 
 

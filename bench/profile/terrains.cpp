@@ -49,7 +49,8 @@ Point step(Kind kind, Point p, std::size_t i, double u, std::size_t n, Random& r
 }  // namespace
 
 const char* name(Kind kind) {
-  constexpr const char* names[] = {"rough", "walk", "smooth", "flat", "convex", "concave", "grooves", "integer", "plateaus", "cliffs"};
+  constexpr const char* names[] = {"rough",   "walk",    "smooth",  "flat",     "convex",
+                                   "concave", "grooves", "integer", "plateaus", "cliffs"};
   return names[int(kind)];
 }
 

@@ -109,11 +109,12 @@ def write_tables(out, about, speed, answers, grown, limit):
                   f"MB), × = times krepl's; – = not run, a smaller radius or coarser chord already took over {limit:g} s "
                   f"or (Boost) over {BOOST_LIMIT:,} vertices.\n\n")
         out.write(table(["data (vertices)", "R in mean lengths", "krepl, true arcs", *peers], speed) + "\n\n")
-        out.write("Do they answer the same question? Area and holes; for the peers the relative difference from krepl's area.\n\n")
+        out.write("Do they answer the same question? Area and holes; for the peers the relative difference from "
+                  "krepl's area.\n\n")
         out.write(table(["data (vertices)", "R in mean lengths", "krepl: area, holes", *peers], answers) + "\n\n")
     if grown:
-        out.write("Growth: the world's rivers cut or repeated to n segments, wall time of the fastest of at least four runs; bytes "
-                  "are the peak of the operation.\n\n")
+        out.write("Growth: the world's rivers cut or repeated to n segments, wall time of the fastest of at least four "
+                  "runs; bytes are the peak of the operation.\n\n")
         out.write(table(["R in mean lengths", "segments", "µs/segment, 1 thread", "2 threads", "speed-up",
                          "bytes/segment, 1 thread", "2 threads"], grown) + "\n")
 

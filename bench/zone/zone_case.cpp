@@ -63,5 +63,6 @@ int main(int argc, char** argv) {
     return 2;
   }
   return bench::run(argv[1], argv[2], std::strtoull(argv[3], nullptr, 10), std::strtod(argv[4], nullptr),
-                    std::strtod(argv[5], nullptr), unsigned(std::strtoul(argv[6], nullptr, 10)), argc > 7 ? std::max(1, std::atoi(argv[7])) : 1);
+                    std::strtod(argv[5], nullptr), unsigned(std::strtoul(argv[6], nullptr, 10)),
+                    argc > 7 ? std::max(1, std::atoi(argv[7])) : 1);
 }

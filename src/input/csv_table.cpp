@@ -111,4 +111,30 @@ Result<double> CsvTable::finite(std::size_t column) const {
   return value;
 }
 
+Result<std::vector<Point>> read_points(const std::string& path, std::string_view x_name, std::string_view y_name,
+                                       std::string_view things, const Context& context, const PointCheck& check) {
+  Result<CsvTable> table = CsvTable::open(path);
+  if (!table) return table.error();
+  const Result<std::size_t> x_column = table->column(x_name);
+  if (!x_column) return x_column.error();
+  const Result<std::size_t> y_column = table->column(y_name);
+  if (!y_column) return y_column.error();
+  std::vector<Point> points;
+  while (table->next()) {
+    const Result<double> x = table->finite(*x_column);
+    if (!x) return x.error();
+    const Result<double> y = table->finite(*y_column);
+    if (!y) return y.error();
+    const Point point{*x, *y};
+    if (check) {
+      if (Status right = check(points, point, *table); !right) return right.error();
+    }
+    points.push_back(point);
+    if (points.size() % 65536 == 0 && context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
+  }
+  if (points.empty())
+    return Error{ErrorCode::input, "has no " + std::string(things), "", "give at least one row below the header"};
+  return points;
+}
+
 }  // namespace krepl::input

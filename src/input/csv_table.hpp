@@ -1,11 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "krepl/context.hpp"
 #include "krepl/error.hpp"
+#include "krepl/point.hpp"
 
 namespace krepl::input {
 
@@ -40,5 +44,13 @@ class CsvTable {
   std::vector<std::string> header_;
   std::vector<std::string_view> fields_;
 };
+
+/// Says whether the point in the table's row may follow those before it.
+using PointCheck = std::function<Status(std::span<const Point> before, Point point, const CsvTable& table)>;
+
+/// The points in two columns of a table, `things` for people. Errors: as CsvTable; what `check` says; no row below the header;
+/// cancelled.
+Result<std::vector<Point>> read_points(const std::string& path, std::string_view x_name, std::string_view y_name,
+                                       std::string_view things, const Context& context, const PointCheck& check = {});
 
 }  // namespace krepl::input

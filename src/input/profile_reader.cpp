@@ -23,25 +23,13 @@ Error decreasing_error(double before, double x, const std::string& place) {
 }
 
 Result<TerrainLine> read_csv(const std::string& path, const Context& context) {
-  Result<CsvTable> table = CsvTable::open(path);
-  if (!table) return table.error();
-  const Result<std::size_t> x_column = table->column("x");
-  if (!x_column) return x_column.error();
-  const Result<std::size_t> z_column = table->column("z");
-  if (!z_column) return z_column.error();
-  TerrainLine data;
-  while (table->next()) {
-    const Result<double> x = table->finite(*x_column);
-    if (!x) return x.error();
-    const Result<double> z = table->finite(*z_column);
-    if (!z) return z.error();
-    if (!data.points.empty() && *x < data.points.back().x)
-      return decreasing_error(data.points.back().x, *x, table->place());
-    data.points.push_back({*x, *z});
-    if (data.points.size() % 65536 == 0 && context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
-  }
-  if (data.points.empty()) return Error{ErrorCode::input, "has no points", "", "give at least one row below the header"};
-  return data;
+  const PointCheck not_decreasing = [](std::span<const Point> before, Point p, const CsvTable& table) -> Status {
+    if (!before.empty() && p.x < before.back().x) return decreasing_error(before.back().x, p.x, table.place());
+    return std::monostate{};
+  };
+  Result<std::vector<Point>> points = read_points(path, "x", "z", "points", context, not_decreasing);
+  if (!points) return points.error();
+  return TerrainLine{std::move(*points), {}};
 }
 
 /// The only line in a geometry, or null.
@@ -138,8 +126,9 @@ Result<ProfileRecord> profile_record(const CsvTable& table, const ProfileColumns
     return Error{ErrorCode::input, "kind '" + std::string(kind.substr(0, 40)) + "' is not half_line, segment or arc",
                  table.place(), ""};
   const bool half_line = record.kind == ProfileRecord::Kind::half_line;
-  const std::pair<std::size_t, double*> values[] = {{c.x0, &record.start.x}, {c.y0, &record.start.y}, {c.x1, &record.end.x},
-                                                    {c.y1, &record.end.y},   {c.cx, &record.center.x}, {c.cy, &record.center.y}};
+  const std::pair<std::size_t, double*> values[] = {{c.x0, &record.start.x},  {c.y0, &record.start.y},
+                                                    {c.x1, &record.end.x},    {c.y1, &record.end.y},
+                                                    {c.cx, &record.center.x}, {c.cy, &record.center.y}};
   for (const auto& [column, value] : values) {
     const bool center = column == c.cx || column == c.cy;
     if (center && record.kind != ProfileRecord::Kind::arc) continue;

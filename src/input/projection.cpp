@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
+#include <functional>
 
 #include "ogr/message_capture.hpp"
 #include "ogr/spatial_reference.hpp"
@@ -57,24 +58,32 @@ std::string place_of_point(const Parts& parts, std::size_t point, const Projecti
   return fmt::format("{}, vertex {} ({} {})", request.place(parts.feature[part]), point - parts.begin[part], p.x, p.y);
 }
 
-Status transform_all(Parts& parts, const OGRSpatialReference& to, const ProjectionRequest& request, const Context& context) {
+/// Transforms all points, block by block; take(first, block) looks at each before the next.
+Status transform_blocks(const Parts& parts, const OGRSpatialReference& to, const ProjectionRequest& request,
+                        const Context& context, const std::function<Status(std::size_t first, const Block& block)>& take) {
   Result<Transformation> transformation = make_transformation(*request.from, to);
   if (!transformation) return transformation.error();
   Block block;
   for (std::size_t first = 0; first < parts.points.size(); first += chunk) {
     if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while projecting", "", ""};
-    std::size_t count = std::min(chunk, parts.points.size() - first);
-    transform_block(**transformation, parts, first, count, block);
-    for (std::size_t i = 0; i < count; ++i) {
+    transform_block(**transformation, parts, first, std::min(chunk, parts.points.size() - first), block);
+    if (Status taken = take(first, block); !taken) return taken;
+  }
+  return std::monostate{};
+}
+
+Status transform_all(Parts& parts, const OGRSpatialReference& to, const ProjectionRequest& request, const Context& context) {
+  return transform_blocks(parts, to, request, context, [&](std::size_t first, const Block& block) -> Status {
+    for (std::size_t i = 0; i < block.x.size(); ++i) {
       if (!block.success[i]) {
         return Error{ErrorCode::input, "cannot be projected to " + ogr::crs_name(to), place_of_point(parts, first + i, request),
                      "choose another --to-crs or leave the feature out with --where"};
       }
     }
     // Only now, so that the message above shows the coordinates as they were given.
-    for (std::size_t i = 0; i < count; ++i) parts.points[first + i] = {block.x[i], block.y[i]};
-  }
-  return std::monostate{};
+    for (std::size_t i = 0; i < block.x.size(); ++i) parts.points[first + i] = {block.x[i], block.y[i]};
+    return std::monostate{};
+  });
 }
 
 struct GeographicExtent {
@@ -89,17 +98,11 @@ struct GeographicExtent {
 
 Result<GeographicExtent> geographic_extent(const Parts& parts, const OGRSpatialReference& geographic,
                                            const ProjectionRequest& request, const Context& context) {
-  Result<Transformation> transformation = make_transformation(*request.from, geographic);
-  if (!transformation) return transformation.error();
   GeographicExtent extent;
   std::vector<double> longitudes;
   longitudes.reserve(parts.points.size());
-  Block block;
-  for (std::size_t first = 0; first < parts.points.size(); first += chunk) {
-    if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while projecting", "", ""};
-    std::size_t count = std::min(chunk, parts.points.size() - first);
-    transform_block(**transformation, parts, first, count, block);
-    for (std::size_t i = 0; i < count; ++i) {
+  const auto take = [&](std::size_t first, const Block& block) -> Status {
+    for (std::size_t i = 0; i < block.x.size(); ++i) {
       if (!block.success[i] || std::fabs(block.y[i]) > 90 || std::fabs(block.x[i]) > 360) {
         return Error{ErrorCode::input, "is not a place on earth", place_of_point(parts, first + i, request),
                      "check the coordinate system, or name it with --crs"};
@@ -108,7 +111,9 @@ Result<GeographicExtent> geographic_extent(const Parts& parts, const OGRSpatialR
       extent.south = std::min(extent.south, block.y[i]);
       extent.north = std::max(extent.north, block.y[i]);
     }
-  }
+    return std::monostate{};
+  };
+  if (Status taken = transform_blocks(parts, geographic, request, context, take); !taken) return taken.error();
   extent.longitude = longitude_range(longitudes);
   return extent;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/box_tree.hpp"
 #include "kernel/hilbert.hpp"
 #include "kernel/parallel.hpp"
 #include "kernel/radix_sort.hpp"
@@ -15,14 +16,7 @@ namespace {
 constexpr std::size_t block_size = 1 << 16;
 constexpr std::size_t most_vertices = std::size_t{1} << 28;  // what searches pack into one number
 
-struct Box {
-  double min_x = std::numeric_limits<double>::infinity(), min_y = min_x;
-  double max_x = -min_x, max_y = -min_x;
-  void add(Point p) {
-    min_x = std::min(min_x, p.x), max_x = std::max(max_x, p.x);
-    min_y = std::min(min_y, p.y), max_y = std::max(max_y, p.y);
-  }
-};
+using kernel::Box;
 
 /// Maps coordinates to the Hilbert curve's grid.
 class Grid {
@@ -50,8 +44,7 @@ struct Welded {
 Welded weld(const std::vector<Point>& points, const Grid& grid, const Context& context) {
   const std::size_t n = points.size();
   std::vector<std::uint64_t> order;
-  kernel::reserve_pages(context, order, n);
-  order.resize(n);
+  kernel::resize_pages(context, order, n);
   Context quiet;
   quiet.threads = context.threads;
   kernel::parallel_blocks(quiet, n, block_size, [&](std::size_t first, std::size_t last) {
@@ -62,8 +55,7 @@ Welded weld(const std::vector<Point>& points, const Grid& grid, const Context& c
   Welded w;
   kernel::reserve_pages(context, w.vertices, n);
   kernel::reserve_pages(context, w.position, n);
-  kernel::reserve_pages(context, w.chain, n);
-  w.chain.resize(n);
+  kernel::resize_pages(context, w.chain, n);
   const auto before = [&](std::uint64_t i, std::uint64_t j) {
     const Point p = points[std::uint32_t(i)], q = points[std::uint32_t(j)];
     return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : i < j;

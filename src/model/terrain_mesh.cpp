@@ -157,8 +157,8 @@ Status MeshBuilder::check() {
   return std::monostate{};
 }
 
-/// Numbers the places where vertices stand along the Hilbert curve, and names the corners by them. Which of several close points
-/// stands for them does not depend on the order in which they were given.
+/// Numbers the places where vertices stand along the Hilbert curve, and names the corners by them. Which of several
+/// close points stands for them does not depend on the order in which they were given.
 bool MeshBuilder::weld() {
   const double width = std::max(box_.high.x - box_.low.x, box_.high.y - box_.low.y);
   const double scale = width > 0 && std::isfinite(65535.0 / width) ? 65535.0 / width : 0.0;

@@ -8,13 +8,13 @@
 
 namespace krepl {
 
-/// The part of a terrain near a rectangle of the plane as an explicit little mesh: grids and meshes look alike from here.
-/// Buffers are kept from one fill() to the next.
+/// The part of a terrain near a rectangle of the plane as an explicit little mesh: grids and meshes look alike from
+/// here. Buffers are kept from one fill() to the next.
 ///
-/// *Core* are all triangles whose bounding rectangle meets the rectangle (closed), and their edges and vertices. Around them are
-/// all further triangles that share a vertex with a core triangle, so that every core vertex and core edge has all its
-/// triangles and edges here. Numbers below are indices into the window's own arrays; they follow feature numbers, so the
-/// same features come in the same order in every window.
+/// *Core* are all triangles whose bounding rectangle meets the rectangle (closed), and their edges and vertices. Around
+/// them are all further triangles that share a vertex with a core triangle, so that every core vertex and core edge has
+/// all its triangles and edges here. Numbers below are indices into the window's own arrays; they follow feature
+/// numbers, so the same features come in the same order in every window.
 class TerrainWindow {
  public:
   using Index = Terrain::Index;

@@ -106,7 +106,8 @@ bool PatchMesh::is_too_long(Index side) const {
   if (patch_.sagitta(patch_.curved_square(a, b)) <= limit_) return false;
   // Beside a border chord that is too long itself, triangles would become thinner without end.
   const Index c = corner_[previous(side)], d = corner_[previous(opposite_[side])];
-  const double seen = std::max(std::fabs(area(corner_[side], corner_[next(side)], c)), std::fabs(area(corner_[side], corner_[next(side)], d)));
+  const double seen = std::max(std::fabs(area(corner_[side], corner_[next(side)], c)),
+                               std::fabs(area(corner_[side], corner_[next(side)], d)));
   if (seen <= negligible * patch_.curved_square(a, b)) return false;
   const double x = (a.x + b.x) / 2, y = (a.y + b.y) / 2;
   return !(x == a.x && y == a.y) && !(x == b.x && y == b.y);

@@ -125,7 +125,8 @@ SurfaceWriteResult write_surface(const std::string& path, const Surface& surface
   switch (format.kind) {
     case Kind::json: return write_surface_json(path, surface, options, context);
     case Kind::gpkg: return write_surface_gpkg(path, surface, options, context);
-    case Kind::tif: return write_heights(path, {std::shared_ptr<void>(), &surface.terrain()}, surface.radius(), options, context);
+    case Kind::tif:
+      return write_heights(path, {std::shared_ptr<void>(), &surface.terrain()}, surface.radius(), options, context);
     case Kind::stl: return write_surface_stl(path, surface, options, context);
     case Kind::ply: return write_surface_ply(path, surface, options, context);
     case Kind::glb: return write_surface_glb(path, surface, options, context);

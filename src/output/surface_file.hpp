@@ -44,6 +44,11 @@ struct SurfaceFileReport {
   std::vector<std::string> notes;
 };
 
+/// What kinds are called in files.
+const char* name_of(Surface::EdgeKind kind);
+const char* name_of(Surface::Curve curve);
+const char* name_of(Terrain::FeatureKind kind);
+
 /// Writes a surface. The file appears whole or not at all. Errors: whatever keeps the file from being written; an option
 /// out of its range (usage); cancelled.
 Result<SurfaceFileReport> write_surface(const std::string& path, const Surface& surface, const SurfaceFormat& format,

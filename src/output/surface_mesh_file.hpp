@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 
 #include "output/surface_mesh.hpp"
 #include "output/surface_writers.hpp"
@@ -22,9 +23,11 @@ void put_binary(fmt::memory_buffer& bytes, Value value) {
 /// Colour of a face by what the ball touches, as in the picture: sand for faces, blue for edges, red for vertices.
 std::array<std::uint8_t, 3> patch_colour(Terrain::FeatureKind kind);
 
-/// The triangles within the deviation asked for, and the report about them.
-Result<SurfaceMesh> make_mesh(const Surface& surface, const SurfaceFileOptions& options, const Context& context,
-                              SurfaceFileReport& report);
+/// Makes the triangles within the deviation asked for, has `put` write them, and finishes the file. What `put` adds to the
+/// report comes after what is told about the triangles.
+SurfaceWriteResult write_mesh(const std::string& path, const Surface& surface, const SurfaceFileOptions& options,
+                              const Context& context,
+                              const std::function<Status(OutputStream&, const SurfaceMesh&, SurfaceFileReport&)>& put);
 
 /// Where float coordinates are written: a place near the middle to take off, if floats could not hold the coordinates to a
 /// fiftieth of the deviation asked for; else zero.

@@ -18,8 +18,8 @@ struct SurfaceFrame {
 };
 SurfaceFrame surface_frame(const Terrain& terrain, double radius);
 
-/// Places at the centres of cells that cover the frame, the northernmost row first. `what` names the option to change where they
-/// would be too many.
+/// Places at the centres of cells that cover the frame, the northernmost row first. `what` names the option to change
+/// where they would be too many.
 Result<DropCutter::Raster> covering_raster(const SurfaceFrame& frame, double cell_x, double cell_y, const char* what);
 
 /// Rests the ball on all places of the raster, some rows at a time, and hands these over in their order.

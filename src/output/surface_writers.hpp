@@ -22,10 +22,6 @@ inline double surface_max_error(const SurfaceFileOptions& options, double radius
   return options.max_error > 0 ? options.max_error : radius / 1000;
 }
 
-const char* name_of(Surface::EdgeKind kind);
-const char* name_of(Surface::Curve curve);
-const char* name_of(Terrain::FeatureKind kind);
-
 /// Features that own a face or a side of an edge, in order of their numbers.
 std::vector<Surface::Index> visible_features(const Surface& surface);
 

@@ -169,27 +169,23 @@ void put_blocks(DxfText& text) {
   text.end_section();
 }
 
-void put_objects(DxfText& text) {
-  text.begin_section("OBJECTS");
-  text.group(0, "DICTIONARY");
-  text.handle(5, root_dictionary_handle);
-  text.handle(330, 0);
+void begin_dictionary(DxfText& text, const char* type, int handle, int owner) {
+  text.group(0, type);
+  text.handle(5, handle);
+  text.handle(330, owner);
   text.group(100, "AcDbDictionary");
   text.group(281, 1);
+}
+
+void put_objects(DxfText& text) {
+  text.begin_section("OBJECTS");
+  begin_dictionary(text, "DICTIONARY", root_dictionary_handle, 0);
   text.group(3, "ACAD_GROUP");
   text.handle(350, 0xD);
   text.group(3, "ACAD_PLOTSTYLENAME");
   text.handle(350, 0xE);
-  text.group(0, "DICTIONARY");
-  text.handle(5, 0xD);
-  text.handle(330, root_dictionary_handle);
-  text.group(100, "AcDbDictionary");
-  text.group(281, 1);
-  text.group(0, "ACDBDICTIONARYWDFLT");
-  text.handle(5, 0xE);
-  text.handle(330, root_dictionary_handle);
-  text.group(100, "AcDbDictionary");
-  text.group(281, 1);
+  begin_dictionary(text, "DICTIONARY", 0xD, root_dictionary_handle);
+  begin_dictionary(text, "ACDBDICTIONARYWDFLT", 0xE, root_dictionary_handle);
   text.group(3, "Normal");
   text.handle(350, 0xF);
   text.group(100, "AcDbDictionaryWithDefault");

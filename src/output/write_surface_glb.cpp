@@ -113,7 +113,8 @@ Status GlbMesh::write(OutputStream& stream, const Context& context) const {
   const std::string head = json();
   fmt::memory_buffer bytes;
   constexpr std::uint32_t magic = 0x46546c67, json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
-  for (const std::size_t value : {std::size_t{magic}, std::size_t{2}, 28 + head.size() + binary_size(), head.size(), std::size_t{json_chunk}})
+  for (const std::size_t value :
+       {std::size_t{magic}, std::size_t{2}, 28 + head.size() + binary_size(), head.size(), std::size_t{json_chunk}})
     put_binary(bytes, std::uint32_t(value));
   bytes.append(head);
   put_binary(bytes, std::uint32_t(binary_size()));
@@ -133,18 +134,14 @@ Status GlbMesh::write(OutputStream& stream, const Context& context) const {
 
 SurfaceWriteResult write_surface_glb(const std::string& path, const Surface& surface, const SurfaceFileOptions& options,
                                      const Context& context) {
-  Result<OutputStream> stream = OutputStream::open(path);
-  if (!stream) return stream.error();
-  SurfaceFileReport report;
-  const Result<SurfaceMesh> mesh = make_mesh(surface, options, context, report);
-  if (!mesh) return mesh.error();
-  const GlbMesh glb(surface, *mesh, float_origin(surface, surface_max_error(options, surface.radius())));
-  if (!glb.fits()) {
-    return Error{ErrorCode::io, "glTF binary files hold 4 GB at most", "", "give a larger --max-error, or write PLY"};
-  }
-  if (Status written = glb.write(*stream, context); !written) return written.error();
-  if (Status finished = stream->finish(); !finished) return finished.error();
-  return report;
+  const auto put = [&](OutputStream& stream, const SurfaceMesh& mesh, SurfaceFileReport&) -> Status {
+    const GlbMesh glb(surface, mesh, float_origin(surface, surface_max_error(options, surface.radius())));
+    if (!glb.fits()) {
+      return Error{ErrorCode::io, "glTF binary files hold 4 GB at most", "", "give a larger --max-error, or write PLY"};
+    }
+    return glb.write(stream, context);
+  };
+  return write_mesh(path, surface, options, context, put);
 }
 
 }  // namespace krepl::output

@@ -63,19 +63,16 @@ class PlyMesh {
 
 SurfaceWriteResult write_surface_ply(const std::string& path, const Surface& surface, const SurfaceFileOptions& options,
                                      const Context& context) {
-  Result<OutputStream> stream = OutputStream::open(path);
-  if (!stream) return stream.error();
-  SurfaceFileReport report;
-  const Result<SurfaceMesh> mesh = make_mesh(surface, options, context, report);
-  if (!mesh) return mesh.error();
-  const PlyMesh ply(surface, *mesh);
-  stream->write(ply.header());
-  Status written = write_items(*stream, ply.vertex_count(), context, [&](auto& bytes, std::size_t i) { ply.put_vertex(bytes, i); });
-  if (!written) return written.error();
-  written = write_items(*stream, mesh->triangles.size(), context, [&](auto& bytes, std::size_t i) { ply.put_triangle(bytes, i); });
-  if (!written) return written.error();
-  if (Status finished = stream->finish(); !finished) return finished.error();
-  return report;
+  const auto put = [&](OutputStream& stream, const SurfaceMesh& mesh, SurfaceFileReport&) -> Status {
+    const PlyMesh ply(surface, mesh);
+    stream.write(ply.header());
+    Status written =
+        write_items(stream, ply.vertex_count(), context, [&](auto& bytes, std::size_t i) { ply.put_vertex(bytes, i); });
+    if (!written) return written;
+    return write_items(stream, mesh.triangles.size(), context,
+                       [&](auto& bytes, std::size_t i) { ply.put_triangle(bytes, i); });
+  };
+  return write_mesh(path, surface, options, context, put);
 }
 
 }  // namespace krepl::output

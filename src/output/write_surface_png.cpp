@@ -117,7 +117,8 @@ void Relief::take_strip(std::size_t first_row, std::size_t rows, std::span<const
 void Relief::draw_segment(Point a, Point b, double weight) {
   const auto range = [](double from, double to, std::size_t count) {
     const double last = double(count) - 1;
-    return std::pair{std::size_t(std::clamp(std::ceil(from - 1), 0.0, last)), std::size_t(std::clamp(std::floor(to + 1), 0.0, last))};
+    return std::pair{std::size_t(std::clamp(std::ceil(from - 1), 0.0, last)),
+                     std::size_t(std::clamp(std::floor(to + 1), 0.0, last))};
   };
   const auto [top, bottom] = range(std::min(a.y, b.y), std::max(a.y, b.y), height_);
   const Point d{b.x - a.x, b.y - a.y};
@@ -193,7 +194,8 @@ Status Relief::paint(const Context& context) {
   const double pixel = frame.width() / double(width_);
   height_ = static_cast<std::size_t>(std::max(1.0, std::ceil(frame.height() / pixel * (1 - 1e-12))));
   if (double(height_) * double(width_) > 1e9) {
-    return Error{ErrorCode::usage, fmt::format("a picture of {} x {} pixels is too large", width_, height_), "", "give a smaller --width"};
+    return Error{ErrorCode::usage, fmt::format("a picture of {} x {} pixels is too large", width_, height_), "",
+                 "give a smaller --width"};
   }
   const double fine = pixel / samples;
   const SurfaceFrame whole{frame.min_x, frame.max_y - double(height_) * pixel, frame.max_x, frame.max_y};

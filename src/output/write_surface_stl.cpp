@@ -18,43 +18,45 @@ Corner unit_normal(const Corner& a, const Corner& b, const Corner& c) {
   return {float(n[0] / length), float(n[1] / length), float(n[2] / length)};
 }
 
-}  // namespace
-
-SurfaceWriteResult write_surface_stl(const std::string& path, const Surface& surface, const SurfaceFileOptions& options,
-                                     const Context& context) {
-  Result<OutputStream> stream = OutputStream::open(path);
-  if (!stream) return stream.error();
-  SurfaceFileReport report;
-  const Result<SurfaceMesh> mesh = make_mesh(surface, options, context, report);
-  if (!mesh) return mesh.error();
-  if (mesh->triangles.size() > 0xffffffffu) {
+Status put_triangles(OutputStream& stream, const Surface& surface, const SurfaceMesh& mesh, double max_error,
+                     const Context& context, SurfaceFileReport& report) {
+  if (mesh.triangles.size() > 0xffffffffu) {
     return Error{ErrorCode::io, "STL holds 2^32 triangles at most", "", "give a larger --max-error"};
   }
   const Point3 origin = surface.terrain().origin();
-  const Point3 off = float_origin(surface, surface_max_error(options, surface.radius()));
+  const Point3 off = float_origin(surface, max_error);
   std::string header = "krepl surface";
   if (!(off == Point3{})) {
     header = fmt::format("krepl surface, moved by {} {} {}", -off.x, -off.y, -off.z);
-    report.notes.push_back(fmt::format("note: coordinates are relative to {} {} {}: STL has single precision only", off.x, off.y, off.z));
+    report.notes.push_back(
+        fmt::format("note: coordinates are relative to {} {} {}: STL has single precision only", off.x, off.y, off.z));
   }
   header.resize(80, ' ');
-  stream->write(header);
+  stream.write(header);
   fmt::memory_buffer count;
-  put_binary(count, std::uint32_t(mesh->triangles.size()));
-  stream->write({count.data(), count.size()});
+  put_binary(count, std::uint32_t(mesh.triangles.size()));
+  stream.write({count.data(), count.size()});
   const auto corner = [&](SurfaceMesh::Index v) -> Corner {
-    const Point3 p = mesh->vertices[v];
+    const Point3 p = mesh.vertices[v];
     return {float(p.x + (origin.x - off.x)), float(p.y + (origin.y - off.y)), float(p.z + (origin.z - off.z))};
   };
-  Status written = write_items(*stream, mesh->triangles.size(), context, [&](fmt::memory_buffer& bytes, std::size_t t) {
-    const auto& v = mesh->triangles[t].vertex;
+  return write_items(stream, mesh.triangles.size(), context, [&](fmt::memory_buffer& bytes, std::size_t t) {
+    const auto& v = mesh.triangles[t].vertex;
     const Corner a = corner(v[0]), b = corner(v[1]), c = corner(v[2]);
     for (const Corner& values : {unit_normal(a, b, c), a, b, c}) put_binary(bytes, values);
     put_binary(bytes, std::uint16_t{0});
   });
-  if (!written) return written.error();
-  if (Status finished = stream->finish(); !finished) return finished.error();
-  return report;
+}
+
+}  // namespace
+
+SurfaceWriteResult write_surface_stl(const std::string& path, const Surface& surface, const SurfaceFileOptions& options,
+                                     const Context& context) {
+  const double max_error = surface_max_error(options, surface.radius());
+  const auto put = [&](OutputStream& stream, const SurfaceMesh& mesh, SurfaceFileReport& report) {
+    return put_triangles(stream, surface, mesh, max_error, context, report);
+  };
+  return write_mesh(path, surface, options, context, put);
 }
 
 }  // namespace krepl::output

@@ -31,7 +31,8 @@ Result<Surface> compute_surface(std::shared_ptr<const Terrain> terrain, const Su
   }
   const double scale = std::max(radius, terrain->extent());
   if (scale > 1e100 || radius < 1e-100) {
-    return Error{ErrorCode::input, "coordinates or radius are beyond 1e100, or the radius is below 1e-100", "", "scale the input"};
+    return Error{ErrorCode::input, "coordinates or radius are beyond 1e100, or the radius is below 1e-100", "",
+                 "scale the input"};
   }
   if (radius < 0x1p-30 * scale) {
     return Error{ErrorCode::usage, "the radius " + number(radius) + " is too fine for an extent of " + number(scale), "",
@@ -55,7 +56,8 @@ Result<Surface> compute_surface(std::shared_ptr<const Terrain> terrain, const Su
     if (tile.failed_at) {
       const Point3 o = terrain->origin();
       return Error{ErrorCode::computation, "the surface could not be certified",
-                   "near x " + number(tile.failed_at->x + o.x) + ", y " + number(tile.failed_at->y + o.y), "please report this input"};
+                   "near x " + number(tile.failed_at->x + o.x) + ", y " + number(tile.failed_at->y + o.y),
+                   "please report this input"};
     }
     add(counters, tile.counters);
   }

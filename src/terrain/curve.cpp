@@ -100,7 +100,8 @@ Curve curve_kind(const Terrain& terrain, const Surface::Edge& edge) {
   const double sine = length(normal);
   if (sine <= parallel) return Curve::line;
   const Vector3 between = b.at - a.at;
-  return std::fabs(dot(between, normal)) <= parallel * sine * (length(between) + terrain.extent()) ? Curve::ellipse : Curve::quartic;
+  const bool meet = std::fabs(dot(between, normal)) <= parallel * sine * (length(between) + terrain.extent());
+  return meet ? Curve::ellipse : Curve::quartic;
 }
 
 Point3 project_to_curve(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 near) {
@@ -138,7 +139,8 @@ double height_on_edge(const Terrain& terrain, double radius, const Surface::Edge
       h = c.at.z + std::sqrt(std::max(0.0, radius * radius - v.x * v.x - v.y * v.y));
     } else {
       const double flat = std::hypot(c.direction.x, c.direction.y), m = c.direction.z / flat;
-      const double along = (v.x * c.direction.x + v.y * c.direction.y) / flat, aside = (v.y * c.direction.x - v.x * c.direction.y) / flat;
+      const double along = (v.x * c.direction.x + v.y * c.direction.y) / flat;
+      const double aside = (v.y * c.direction.x - v.x * c.direction.y) / flat;
       h = c.at.z + m * along + std::sqrt(std::max(0.0, radius * radius - aside * aside)) / flat;
     }
     if (std::fabs(h - p.z) < nearest) nearest = std::fabs(h - p.z), height = h;

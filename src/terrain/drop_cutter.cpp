@@ -21,7 +21,8 @@ constexpr std::size_t samples_in_cache = std::size_t{1} << 19;
 /// Radii that double precision can hold together with coordinates of this size.
 Status check_radius(double radius, double extent) {
   if (!std::isfinite(radius) || !(radius > 0)) {
-    return Error{ErrorCode::usage, "the radius is not a finite number greater than zero", "", "give one in the unit of the terrain"};
+    return Error{ErrorCode::usage, "the radius is not a finite number greater than zero", "",
+                 "give one in the unit of the terrain"};
   }
   if (radius < 0x1p-50 * extent || radius > 0x1p50 * extent) {
     const std::string how = radius < extent ? "small" : "large";

@@ -86,7 +86,8 @@ void GridPyramid::bound_block(std::size_t level, std::size_t column, std::size_t
 
 /// Coordinates are relative to the place. Blocks where the search starts are at most four times as wide as the ball.
 Moved GridPyramid::moved(Point place, double radius) const {
-  const double farthest = std::abs(place.x) + std::abs(place.y) + 10 * scale_.extent, cell = std::max(grid_.cell_x, grid_.cell_y);
+  const double farthest = std::abs(place.x) + std::abs(place.y) + 10 * scale_.extent;
+  const double cell = std::max(grid_.cell_x, grid_.cell_y);
   return {0x1p-23 * std::min(10 * radius + 17 * cell, farthest), 0x1p-22 * std::min(radius + 10 * cell, farthest)};
 }
 
@@ -187,7 +188,8 @@ void GridPyramid::visit(Search& search, const Reach& reach, std::size_t level, c
 
 void GridPyramid::list(const Survey& survey, Shortlist& shortlist) const {
   Reach reach;
-  if (!this->reach(survey, survey.spread.half_x / scale_.inverse_unit, survey.spread.half_y / scale_.inverse_unit, reach)) return;
+  const double half_x = survey.spread.half_x / scale_.inverse_unit, half_y = survey.spread.half_y / scale_.inverse_unit;
+  if (!this->reach(survey, half_x, half_y, reach)) return;
   if (is_small(reach)) {
     list_cells(survey, reach.first_column, reach.first_row, reach.last_row, shortlist);
   } else {
@@ -208,7 +210,8 @@ void GridPyramid::list_node(const Survey& survey, const Reach& reach, std::size_
     if (level > 0) {
       list_node(survey, reach, level - 1, i, j, shortlist);
     } else {
-      list_cells(survey, i * arity, std::max(j * arity, reach.first_row), std::min(j * arity + arity - 1, reach.last_row), shortlist);
+      list_cells(survey, i * arity, std::max(j * arity, reach.first_row),
+                 std::min(j * arity + arity - 1, reach.last_row), shortlist);
     }
   }
 }

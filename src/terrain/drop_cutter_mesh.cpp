@@ -106,7 +106,8 @@ void MeshTree::build_leaves(const Context& context) {
       leaf.origin = {corners(begin)[0].x, corners(begin)[0].y};
       double width = 0;
       for (std::size_t t = begin; t < end; ++t)
-        for (const Point3& p : corners(t)) width = std::max({width, std::abs(p.x - leaf.origin.x), std::abs(p.y - leaf.origin.y)});
+        for (const Point3& p : corners(t))
+          width = std::max({width, std::abs(p.x - leaf.origin.x), std::abs(p.y - leaf.origin.y)});
       for (std::size_t k = 0; k < arity; ++k) {
         if (begin + k < end) put(corners(begin + k), slack_per_move * 0x1p-22 * width, leaf, k);
         else put_nothing(leaf, k);
@@ -174,7 +175,8 @@ void MeshTree::visit(Search& search, std::size_t level, std::size_t index) const
   unsigned worth = 0;
   if (level > 0) worth = bound_children(search, levels_[level - 1][index], bounds);
   else
-    for (unsigned k = 0; k < arity; k += 4) worth |= search.worth(triangles(search.ball.place, leaves_[index], k), bounds + k) << k;
+    for (unsigned k = 0; k < arity; k += 4)
+      worth |= search.worth(triangles(search.ball.place, leaves_[index], k), bounds + k) << k;
   Candidates<arity> found;
   for (; worth != 0; worth &= worth - 1) {
     const unsigned child = unsigned(__builtin_ctz(worth));

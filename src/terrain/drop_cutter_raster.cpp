@@ -107,7 +107,8 @@ class DropCutter::TileWork {
     const Point3 p = h_.end(tree_, first, ignored).point;
     const double ex = p.x - centre.x, ey = p.y - centre.y, squared = radius_ * radius_;
     const auto sphere = [&](double x, double y) { return squared - (ex - x) * (ex - x) - (ey - y) * (ey - y); };
-    const double least = std::min({sphere(half_x, half_y), sphere(-half_x, half_y), sphere(half_x, -half_y), sphere(-half_x, -half_y)});
+    const double least =
+        std::min({sphere(half_x, half_y), sphere(-half_x, half_y), sphere(half_x, -half_y), sphere(-half_x, -half_y)});
     if (least < 0.25 * squared) return false;
     const double rho = std::sqrt(sphere(0, 0));
     const float slope_x = float(ex / rho), slope_y = float(ey / rho);
@@ -115,7 +116,8 @@ class DropCutter::TileWork {
     const auto relative = [&](double x, double y) { return p.z + std::sqrt(sphere(x, y)) - slope.x * x - slope.y * y; };
     const double unit = tree_.inverse_unit();
     drop::Survey survey = tree_.survey(centre, radius_, {drop::up(half_x * unit), drop::up(half_y * unit), slope_x, slope_y});
-    survey.raise(std::min({relative(half_x, half_y), relative(-half_x, half_y), relative(half_x, -half_y), relative(-half_x, -half_y)}));
+    survey.raise(std::min(
+        {relative(half_x, half_y), relative(-half_x, half_y), relative(half_x, -half_y), relative(-half_x, -half_y)}));
     tree_.list(survey, list);
     return !list.overflowed();
   }

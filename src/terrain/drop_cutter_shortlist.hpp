@@ -20,7 +20,8 @@ class Shortlist {
       overflowed_ = true;
       return;
     }
-    const Float4* from[fields] = {&four.top, &four.z, &four.slope_x, &four.slope_y, &four.ax, &four.ay, &four.bx, &four.by, &four.cx, &four.cy};
+    const Float4* from[fields] = {&four.top, &four.z,  &four.slope_x, &four.slope_y, &four.ax,
+                                  &four.ay,  &four.bx, &four.by,      &four.cx,      &four.cy};
     float value[fields][4];
     for (std::size_t f = 0; f < fields; ++f) from[f]->store(value[f]);
     for (; lanes != 0; lanes &= lanes - 1) {

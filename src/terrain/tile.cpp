@@ -155,7 +155,8 @@ class ChainWriter {
   bool is_straight(const Chain& chain) const {
     const PatchSet& patches = cells_.envelope().patches();
     const auto kind = [&](Index label) { return patches[label].kind; };
-    const bool face = kind(upper_) == Terrain::FeatureKind::face || (other_ != none && kind(other_) == Terrain::FeatureKind::face);
+    const bool face =
+        kind(upper_) == Terrain::FeatureKind::face || (other_ != none && kind(other_) == Terrain::FeatureKind::face);
     if (chain.meeting == Meeting::seam) return face;
     if (chain.meeting == Meeting::rim) return kind(upper_) == Terrain::FeatureKind::edge;
     return kind(upper_) == Terrain::FeatureKind::face && kind(other_) == Terrain::FeatureKind::face;

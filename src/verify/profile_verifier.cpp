@@ -242,7 +242,8 @@ class ProfileChecker {
     for (std::size_t k = 2; k + 1 < pieces_.size(); ++k)
       tally.deviation(distance(pieces_[k - 1].end, pieces_[k].start), pieces_[k].start);
     tally.deviation(distance(pieces_[pieces_.size() - 2].end, top_of(pieces_.back())), top_of(pieces_.back()));
-    for (const Record* h : {&pieces_.front(), &pieces_.back()}) tally.deviation(std::abs(Real(h->start.x) - h->end.x), top_of(*h));
+    for (const Record* h : {&pieces_.front(), &pieces_.back()})
+      tally.deviation(std::abs(Real(h->start.x) - h->end.x), top_of(*h));
     tally.deviation(std::abs(top_of(pieces_.front()).x - (Real(points_.front().x) - radius_)), top_of(pieces_.front()));
     tally.deviation(std::abs(top_of(pieces_.back()).x - (Real(points_.back().x) + radius_)), top_of(pieces_.back()));
     report_.checks.push_back(tally.check());
@@ -309,7 +310,8 @@ class ProfileChecker {
     std::mt19937_64 random(options_.seed + 1);
     const Real x0 = Real(points_.front().x) - radius_, x1 = Real(points_.back().x) + radius_;
     std::uniform_real_distribution<double> unit(0, 1);
-    const std::uint64_t count = options_.heights != 0 ? options_.heights : std::clamp<std::uint64_t>(points_.size(), 100, 1000000);
+    const std::uint64_t count =
+        options_.heights != 0 ? options_.heights : std::clamp<std::uint64_t>(points_.size(), 100, 1000000);
     for (std::uint64_t i = 0; i < count; ++i) {
       if (i % 4096 == 0 && context.cancelled()) return false;
       // Half of them about the pieces, which may be much narrower than the whole.

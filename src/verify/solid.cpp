@@ -139,8 +139,8 @@ T square_axis_distance(const Space<T> (&corner)[3]) {
   return around ? T(0) : best;
 }
 
-/// A result's coordinates are rounded when the origin is added, and once more when it is taken off: here the same happens to the
-/// terrain's, so that equal points stay equal. Also makes -0 to 0.
+/// A result's coordinates are rounded when the origin is added, and once more when it is taken off: here the same
+/// happens to the terrain's, so that equal points stay equal. Also makes -0 to 0.
 Point3 as_in_files(Point3 p, Point3 origin) {
   return {p.x + origin.x - origin.x + 0.0, p.y + origin.y - origin.y + 0.0, p.z + origin.z - origin.z + 0.0};
 }

@@ -7,8 +7,8 @@ namespace krepl {
 using zone::Index;
 using zone::none;
 
-Zone ZoneAssembly::assemble(std::shared_ptr<const Network> network, double radius, zone::Rings rings, const zone::Nesting& nesting, const ZoneCounters& counters,
-                            const Context& context) {
+Zone ZoneAssembly::assemble(std::shared_ptr<const Network> network, double radius, zone::Rings rings,
+                            const zone::Nesting& nesting, const ZoneCounters& counters, const Context& context) {
   Zone zone;
   zone.radius_ = radius;
   zone.network_ = std::move(network);
@@ -51,10 +51,7 @@ void ZoneAssembly::add_subdivision(Zone& zone, const zone::Nesting& nesting, con
   const std::size_t pieces = zone.piece_count();
   const Index rings = Index(zone.ring_count());
   s.vertex_count = pieces;
-  for (std::vector<Index>* array : {&s.origin, &s.next, &s.face}) {
-    kernel::reserve_pages(context, *array, 2 * pieces);
-    array->resize(2 * pieces);
-  }
+  for (std::vector<Index>* array : {&s.origin, &s.next, &s.face}) kernel::resize_pages(context, *array, 2 * pieces);
   s.face_outer.assign(rings + 1, none);
 
   // The face on the far side of a ring: for a hole its polygon, for an outer ring the hole around it or face 0.

@@ -68,7 +68,8 @@ Hull hull_of_stretch(const Instance& in, const Element& element, double low, dou
   // angle's middle is close to that; a tenth more covers the difference.
   const Vector<double> p = place(low), q = place(high), m = place((low + high) / 2);
   const Vector<double> c{(p.x + q.x) / 2, (p.y + q.y) / 2};
-  const double half = std::max(length(Vector<double>{p.x - c.x, p.y - c.y}), length(Vector<double>{m.x - c.x, m.y - c.y})) * 1.1;
+  const double half =
+      std::max(length(Vector<double>{p.x - c.x, p.y - c.y}), length(Vector<double>{m.x - c.x, m.y - c.y})) * 1.1;
   return {{Vector<double>{c.x - half, c.y - half}, {c.x + half, c.y + half}}, 2, c, half};
 }
 

@@ -37,7 +37,8 @@ Instance::Instance(const Network& network, double nominal_radius, double radius,
 Vector<quad> Instance::moved(Index vertex) const {
   const Point p = vertices_[vertex];
   // + 0.0 turns -0 into 0: equal coordinates must have equal bits.
-  const std::uint64_t h = mix(std::bit_cast<std::uint64_t>(p.x + 0.0) + 0x9e3779b97f4a7c15ULL * mix(std::bit_cast<std::uint64_t>(p.y + 0.0)));
+  const std::uint64_t h = mix(std::bit_cast<std::uint64_t>(p.x + 0.0) +
+                              0x9e3779b97f4a7c15ULL * mix(std::bit_cast<std::uint64_t>(p.y + 0.0)));
   return {quad(p.x) + quad(jitter_ * fraction(h)), quad(p.y) + quad(jitter_ * fraction(mix(h + 1)))};
 }
 

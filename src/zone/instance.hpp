@@ -26,14 +26,15 @@ Real length(Vector<Real> v) {
 
 /// The concrete, non-degenerate instance whose topology is computed (docs/zone.md, "One instance").
 ///
-/// Vertices are the network's, moved by at most jitter(), 2^-72 of the extent or 2^-88 R, in a direction that is a hash of their
-/// coordinates; the radius is enlarged by 2^-48 S or 4 units in the last place of the coordinates, whichever is more.
-/// Double precision sees the unmoved vertices and counts the move as an error; quadruple precision sees the moved ones. So every
-/// decision is about the same instance, and decisions taken at different elements cannot contradict each other.
+/// Vertices are the network's, moved by at most jitter(), 2^-72 of the extent or 2^-88 R, in a direction that is a hash
+/// of their coordinates; the radius is enlarged by 2^-48 S or 4 units in the last place of the coordinates, whichever
+/// is more. Double precision sees the unmoved vertices and counts the move as an error; quadruple precision sees the
+/// moved ones. So every decision is about the same instance, and decisions taken at different elements cannot
+/// contradict each other.
 ///
-/// Boundary elements have numbers: 2s is the offset line on the right of segment s as it runs from a to b, 2s+1 the one on
-/// the right of its reverse; side_count() + v is the circle about vertex v. Sites are the segments, then the isolated
-/// vertices as segments of length zero.
+/// Boundary elements have numbers: 2s is the offset line on the right of segment s as it runs from a to b, 2s+1 the one
+/// on the right of its reverse; side_count() + v is the circle about vertex v. Sites are the segments, then the
+/// isolated vertices as segments of length zero.
 class Instance {
  public:
   struct Ends {

@@ -34,8 +34,7 @@ Error unmatched(const Instance& instance, const Piece& p) {
 Result<std::vector<Index>> successors(const Instance& instance, const std::vector<Piece>& pieces, const Context& context) {
   const std::vector<Index> first = pieces_by_element(instance, pieces);
   std::vector<Index> next;
-  kernel::reserve_pages(context, next, pieces.size());
-  next.resize(pieces.size(), none);
+  kernel::resize_pages(context, next, pieces.size(), none);
   Context quiet;
   quiet.threads = context.threads;
   kernel::parallel_blocks(quiet, pieces.size(), block, [&](std::size_t from, std::size_t to) {
@@ -73,10 +72,8 @@ Result<Rings> link_pieces(const Instance& instance, const std::vector<Piece>& pi
     rings.begin.push_back(Index(order.size()));
   }
   next = {};
-  kernel::reserve_pages(context, rings.element, pieces.size());
-  kernel::reserve_pages(context, rings.vertex, pieces.size());
-  rings.element.resize(pieces.size());
-  rings.vertex.resize(pieces.size());
+  kernel::resize_pages(context, rings.element, pieces.size());
+  kernel::resize_pages(context, rings.vertex, pieces.size());
   Context quiet;
   quiet.threads = context.threads;
   kernel::parallel_blocks(quiet, pieces.size(), block, [&](std::size_t from, std::size_t to) {

@@ -19,8 +19,8 @@ struct Nesting {
 /// O((rings + pieces) log pieces), expected.
 Result<Nesting> nest(const Instance& instance, const Rings& rings, const Context& context);
 
-/// Drops the rings that lie inside a polygon of the network (even-odd rule per feature): their far side is filled. Each ring keeps a
-/// distance of R from all input, so a single point of it decides.
+/// Drops the rings that lie inside a polygon of the network (even-odd rule per feature): their far side is filled. Each
+/// ring keeps a distance of R from all input, so a single point of it decides.
 Rings drop_rings_inside_polygons(const Network& network, Rings rings);
 
 }  // namespace krepl::zone

@@ -89,8 +89,9 @@ std::optional<std::string> Zone::validate() const {
   for (std::uint32_t e = 0; e < piece_count(); ++e) {
     const Piece p = local_piece(e);
     const auto complain = [&](const char* what) {
-      return std::string(what) + " at piece " + std::to_string(e) + ", near x " + std::to_string(p.start.x + network_->origin().x) +
-             ", y " + std::to_string(p.start.y + network_->origin().y);
+      return std::string(what) + " at piece " + std::to_string(e) + ", near x " +
+             std::to_string(p.start.x + network_->origin().x) + ", y " +
+             std::to_string(p.start.y + network_->origin().y);
     };
     if (!std::isfinite(p.start.x) || !std::isfinite(p.start.y)) return complain("a vertex is not finite");
     if (p.kind == Kind::arc) {

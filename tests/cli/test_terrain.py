@@ -15,7 +15,8 @@ CORNER = (500000.0, 5600000.0)
 
 
 def grid(rows, cell=1, corner=CORNER):
-    head = f"ncols {len(rows[0])}\nnrows {len(rows)}\nxllcorner {corner[0]}\nyllcorner {corner[1]}\ncellsize {cell}\nNODATA_value -9999\n"
+    head = (f"ncols {len(rows[0])}\nnrows {len(rows)}\nxllcorner {corner[0]}\nyllcorner {corner[1]}\ncellsize {cell}\n"
+            "NODATA_value -9999\n")
     return head + "\n".join(" ".join(map(str, row)) for row in rows) + "\n"
 
 
@@ -121,7 +122,8 @@ class Terrain(support.CliTest):
         self.check_labels(s)
         kinds = Counter(e["kind"] for e in s["edges"])
         self.assertRegex(done.stdout, rf"^60 triangles; {len(s['vertices'])} vertices, {len(s['edges'])} edges "
-                         rf"\({kinds['seam']} seams, {kinds['valley']} valleys, {kinds['rim']} rims\), {len(s['faces'])} faces; \d+\.\d+ s\n$")
+                         rf"\({kinds['seam']} seams, {kinds['valley']} valleys, {kinds['rim']} rims\), "
+                         rf"{len(s['faces'])} faces; \d+\.\d+ s\n$")
         for edge in s["edges"]:
             self.assertEqual(len(edge["points"]), 4)
             for p in edge["points"]:
@@ -141,7 +143,8 @@ class Terrain(support.CliTest):
     def test_files_have_the_same_bytes_for_any_number_of_threads(self):
         for extension in ("gpkg", "tif", "stl", "ply", "glb", "png"):
             for threads in (1, 3):
-                self.terrain(f"out{threads}.{extension}", "--threads", threads, *(["--width", 200] if extension == "png" else []))
+                width = ["--width", 200] if extension == "png" else []
+                self.terrain(f"out{threads}.{extension}", "--threads", threads, *width)
             one, three = ((self.directory / f"out{n}.{extension}").read_bytes() for n in (1, 3))
             self.assertTrue(one == three, extension)
 
@@ -184,7 +187,8 @@ class Terrain(support.CliTest):
             self.assertTrue(x < 0.5 + 1e-6 or x > 6.5 - 1e-6 or y < 0.5 + 1e-6 or y > 5.5 - 1e-6, (x, y))
 
     def check_deviation(self, mesh, max_error):
-        """Corners are on the surface; points of triangles are nowhere farther from the terrain than R, or nearer than asked for."""
+        """Corners are on the surface; points of triangles are nowhere farther from the terrain than R, or nearer than
+        asked for."""
         for t in mesh[::7]:
             places = [p[:3] for p in t]
             for p in places:
@@ -216,7 +220,8 @@ class Terrain(support.CliTest):
 
     def test_stl_far_from_the_origin_is_moved_with_a_note(self):
         done = self.terrain("out.stl")
-        self.assertRegex(done.stderr, r"^krepl: out.stl: note: coordinates are relative to 500004 5600003 \d+: STL has single precision only\n$")
+        self.assertRegex(done.stderr, r"^krepl: out.stl: note: coordinates are relative to 500004 5600003 \d+: "
+                         r"STL has single precision only\n$")
         self.assertTrue(all(abs(v) < 20 for t in self.read_stl("out.stl") for p in t for v in p))
 
     def test_assimp_reads_the_meshes(self):
@@ -333,8 +338,8 @@ class Terrain(support.CliTest):
         self.terrain("out.ply", name="hole.asc", radius=1)
         mesh = self.read_ply("out.ply")
         area = sum(((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2 for a, b, c in mesh)
-        # The square of 11 and its round border, less the square of 7 that the ball narrows by 1 on each side; two of its corners
-        # are cut off by the triangles that have no missing sample.
+        # The square of 11 and its round border, less the square of 7 that the ball narrows by 1 on each side; two of its
+        # corners are cut off by the triangles that have no missing sample.
         self.assertAlmostEqual(area, 121 + 44 + math.pi - 25 + (math.sqrt(2) - 1) ** 2, delta=0.01)
 
     def test_rim_above_a_lower_part(self):
@@ -356,8 +361,8 @@ class Terrain(support.CliTest):
         self.assertEqual({round(p[2], 9) for p in foot if abs(math.dist(p[:2], (7, 7)) - 1) < 1e-6}, {1.0, 10.0})
 
     def test_verify_of_seams_that_end_below_walls_of_different_height(self):
-        # Floors between a high wall and two low ones. The seams along the diagonals and borders of the floors end far below their
-        # vertices, which have the heights of the walls.
+        # Floors between a high wall and two low ones. The seams along the diagonals and borders of the floors end far below
+        # their vertices, which have the heights of the walls.
         facets = []
         profile = [(0, 5), (2, 5), (2, 0), (8, 0), (8, 20), (10, 20), (10, 0), (16, 0), (16, 5), (18, 5)]
         for (x0, z0), (x1, z1) in zip(profile, profile[1:]):

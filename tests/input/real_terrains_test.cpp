@@ -101,7 +101,7 @@ TEST_F(RealTerrains, CountsOfTheManifest) {
 
 TEST_F(RealTerrains, DegreesInAnArchive) {
   const std::string file = "dem/N42E001.hgt.zip";
-  if (!std::filesystem::exists(*data_ / file)) GTEST_SKIP();
+  if (!std::filesystem::exists(*data_ / file)) GTEST_SKIP() << "no " << file;
   const auto refused = read(file);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().what, "coordinates are in degrees (WGS 84 (EPSG:4326)), not in a plane");

@@ -22,9 +22,10 @@ void expect_piece(const ResultPiece& piece, bool arc, Point start, Point end) {
 }
 
 TEST(ReadZones, CompoundCurvesAndHoles) {
-  auto zones = read("in.wkt",
-                    "MULTISURFACE (CURVEPOLYGON (COMPOUNDCURVE ((0 0, 10 0, 10 2), CIRCULARSTRING (10 2, 5 7, 0 2), (0 2, 0 0)),"
-                    " (4 1, 4 2, 5 2, 4 1)), CURVEPOLYGON (CIRCULARSTRING (20 0, 18 0, 20 0)))\n");
+  auto zones =
+      read("in.wkt",
+           "MULTISURFACE (CURVEPOLYGON (COMPOUNDCURVE ((0 0, 10 0, 10 2), CIRCULARSTRING (10 2, 5 7, 0 2), (0 2, 0 0)),"
+           " (4 1, 4 2, 5 2, 4 1)), CURVEPOLYGON (CIRCULARSTRING (20 0, 18 0, 20 0)))\n");
   ASSERT_TRUE(zones.ok()) << zones.error().text();
   ASSERT_EQ(zones->size(), 1u);
   const ResultZone& zone = zones->front();

@@ -57,11 +57,14 @@ std::vector<Named> corpus() {
   c.push_back({"slots, right wall lower", repeat(10, 6, {{0, 0}, {1, 0}, {1, -7}, {5, -7}, {5, -3}, {6, -3}, {6, 0}})});
   c.push_back({"needles at distance 2R", repeat(12, 4, {{0, 0}, {0, 5}, {0, 0}})});
   c.push_back({"equal peaks", repeat(20, 2, {{0, 0}, {1, 1}})});
-  c.push_back({"pythagorean needles", repeat(4, 12, {{-4, -9}, {-4, -3}, {-4, -9}, {-3, -9}, {-3, -4}, {-3, -9}, {0, -9}, {0, -5},
-                                                   {0, -9}, {3, -9}, {3, -4}, {3, -9}, {4, -9}, {4, -3}, {4, -9}})});
-  c.push_back({"bowl of chords", {{-4, -3}, {-3, -4}, {0, -5}, {3, -4}, {4, -3}, {6, -3}, {7, -4}, {10, -5}, {13, -4}, {14, -3}}});
+  c.push_back({"pythagorean needles",
+               repeat(4, 12, {{-4, -9}, {-4, -3}, {-4, -9}, {-3, -9}, {-3, -4}, {-3, -9}, {0, -9}, {0, -5},
+                              {0, -9}, {3, -9}, {3, -4}, {3, -9}, {4, -9}, {4, -3}, {4, -9}})});
+  c.push_back({"bowl of chords",
+               {{-4, -3}, {-3, -4}, {0, -5}, {3, -4}, {4, -3}, {6, -3}, {7, -4}, {10, -5}, {13, -4}, {14, -3}}});
   c.push_back({"lake with a third ridge in its plane", {{0, 0}, {4, 0}, {5, -2}, {6, 0}, {9, 0}, {10, -8}, {11, 0}, {15, 0}}});
-  c.push_back({"wall of many pieces", {{0, 0}, {1, 0}, {1, 2}, {1, 1}, {1, 4}, {1, 4}, {1, 3}, {1, 6}, {1, 0}, {1, 2}, {1, -3}, {2, -3}}});
+  c.push_back({"wall of many pieces",
+               {{0, 0}, {1, 0}, {1, 2}, {1, 1}, {1, 4}, {1, 4}, {1, 3}, {1, 6}, {1, 0}, {1, 2}, {1, -3}, {2, -3}}});
   c.push_back({"ever smaller steps", [] {
                  Terrain t;
                  double x = 0;
@@ -71,7 +74,8 @@ std::vector<Named> corpus() {
   c.push_back({"tiny steps", {{0, 0}, {1e-300, 1}, {2e-300, 0}, {1, 0}, {1, 1e-300}, {2, 0}, {2 + 0x1p-51, 1}}});
   c.push_back({"finely drawn circle of radius 2", [] {
                  Terrain t;
-                 for (int i = 0; i <= 400; ++i) t.push_back({-2 * std::cos(std::acos(-1.0) * i / 400), -2 * std::sin(std::acos(-1.0) * i / 400)});
+                 for (int i = 0; i <= 400; ++i)
+                   t.push_back({-2 * std::cos(std::acos(-1.0) * i / 400), -2 * std::sin(std::acos(-1.0) * i / 400)});
                  for (std::size_t i = 1; i < t.size(); ++i) t[i].x = std::max(t[i].x, t[i - 1].x);
                  return t;
                }()});

@@ -81,7 +81,8 @@ Measures measures_of(const Profile& profile) {
       m.length += std::hypot(width, row.end.y - row.start.y);
       continue;
     }
-    const Point s{row.start.x - row.center.x, row.start.y - row.center.y}, e{row.end.x - row.center.x, row.end.y - row.center.y};
+    const Point s{row.start.x - row.center.x, row.start.y - row.center.y};
+    const Point e{row.end.x - row.center.x, row.end.y - row.center.y};
     const double angle = std::fabs(std::atan2(s.y * e.x - s.x * e.y, s.x * e.x + s.y * e.y));
     m.area += width * row.center.y + (e.x * e.y - s.x * s.y + r * r * angle) / 2;
     m.length += r * angle;

@@ -17,7 +17,8 @@ class Files : public testing::Test {
  protected:
   Files() {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    directory_ = std::filesystem::temp_directory_path() / ("krepl-reader-" + std::string(info->name()) + std::to_string(::getpid()));
+    directory_ = std::filesystem::temp_directory_path() /
+                 ("krepl-reader-" + std::string(info->name()) + std::to_string(::getpid()));
     std::filesystem::create_directories(directory_);
   }
   ~Files() override { std::filesystem::remove_all(directory_); }

@@ -23,7 +23,8 @@ std::string shape(const Terrain& terrain, double radius) {
   for (std::size_t k = 0; k < profile.pieces.size(); ++k) {
     const ProfileRow row = profile.row(k);
     char text[100];
-    std::snprintf(text, sizeof text, "%s%c%s(%.9g %.9g)", k == 0 ? "" : " ", "has"[row.kind == Kind::half_line ? 0 : row.kind == Kind::arc ? 1 : 2],
+    std::snprintf(text, sizeof text, "%s%c%s(%.9g %.9g)", k == 0 ? "" : " ",
+                  "has"[row.kind == Kind::half_line ? 0 : row.kind == Kind::arc ? 1 : 2],
                   profile_cause(row).c_str(), shown(row.end.x), shown(row.end.y));
     result += text;
   }

@@ -32,7 +32,8 @@ std::optional<std::string> compare(std::span<const ProfilePiece> a, std::span<co
 
 std::optional<std::string> compare_stream(const Profile& truth, std::size_t portion) {
   std::vector<ProfileRow> rows;
-  auto stream = ProfileStream::open(truth.radius, [&](std::span<const ProfileRow> r) { rows.insert(rows.end(), r.begin(), r.end()); });
+  auto stream = ProfileStream::open(
+      truth.radius, [&](std::span<const ProfileRow> r) { rows.insert(rows.end(), r.begin(), r.end()); });
   if (!stream) return stream.error().text();
   for (std::size_t i = 0; i < truth.terrain.size(); i += portion) {
     const std::size_t count = std::min(portion, truth.terrain.size() - i);
@@ -74,7 +75,9 @@ Terrain walk(Random& r, std::size_t n) {
   return build(n, [&](Point& p, std::size_t) { p = {p.x + real(r, 0, 2), p.y + real(r, -1, 1)}; });
 }
 Terrain spiky(Random& r, std::size_t n) {
-  return build(n, [&](Point& p, std::size_t) { p = {p.x + std::pow(10, real(r, -12, 1)), real(r, -1, 1) * std::pow(10, real(r, -3, 2))}; });
+  return build(n, [&](Point& p, std::size_t) {
+    p = {p.x + std::pow(10, real(r, -12, 1)), real(r, -1, 1) * std::pow(10, real(r, -3, 2))};
+  });
 }
 Terrain lattice(Random& r, std::size_t n) {
   return build(n, [&](Point& p, std::size_t) { p = {p.x + 1, p.y + whole(r, -1, 1)}; });
@@ -96,7 +99,9 @@ Terrain plateaus(Random& r, std::size_t n) {
 }
 Terrain smooth(Random& r, std::size_t n) {
   const double a = real(r, 0, 10), f = real(r, 0.001, 0.3), g = real(r, 0.001, 0.3);
-  return build(n, [&](Point& p, std::size_t i) { p = {double(i + 1), a * std::sin(f * double(i + 1)) + a * std::cos(g * double(i + 1))}; });
+  return build(n, [&](Point& p, std::size_t i) {
+    p = {double(i + 1), a * std::sin(f * double(i + 1)) + a * std::cos(g * double(i + 1))};
+  });
 }
 Terrain convex(Random& r, std::size_t n) {
   const double size = real(r, 0.1, 100);
@@ -175,12 +180,14 @@ std::optional<std::string> fault_in(const Terrain& terrain, double radius, doubl
   for (const verify::Check& check : report->checks) {
     if (check.ok() && !(check.worst > limit)) continue;
     char place[120];
-    std::snprintf(place, sizeof place, " (worst %.3g, S %.3g) near %.17g %.17g", check.worst, report->scale, check.where.x, check.where.y);
+    std::snprintf(place, sizeof place, " (worst %.3g, S %.3g) near %.17g %.17g", check.worst, report->scale,
+                  check.where.x, check.where.y);
     return check.name + ": " + check.note + place;
   }
   const ProfileVertexCounts counts = count_profile_vertices(terrain, profile.pieces);
   if (counts.explicit_ones != report->explicit_vertices)
-    return "explicit vertices: " + std::to_string(counts.explicit_ones) + ", verifier " + std::to_string(report->explicit_vertices);
+    return "explicit vertices: " + std::to_string(counts.explicit_ones) + ", verifier " +
+           std::to_string(report->explicit_vertices);
   return std::nullopt;
 }
 

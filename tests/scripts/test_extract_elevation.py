@@ -41,7 +41,8 @@ class ExtractElevation(unittest.TestCase):
             data = struct.pack(descr[0] + "6h", 1, -2, 3, 400, 5, -600)
             done = self.run_on("elevation.npy", numpy_array(descr, (2, 3), data))
             self.assertEqual((done.returncode, done.stderr), (0, ""))
-            self.assertEqual((self.directory / "out.asc").read_text(), "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 92\n"
+            self.assertEqual((self.directory / "out.asc").read_text(),
+                             "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 92\n"
                              "NODATA_value -32768\n1 -2 3\n400 5 -600\n")
 
     def test_what_it_cannot_read_is_refused(self):
@@ -54,7 +55,8 @@ class ExtractElevation(unittest.TestCase):
             self.assertFalse((self.directory / "out.asc").exists())
         (self.directory / "no.npz").write_text("no archive")
         self.assertRegex(self.run_script("no.npz").stderr, r"^extract-elevation: no\.npz: ")
-        self.assertRegex(self.run_script("absent.npz").stderr, r"absent\.npz is missing; run scripts/install-packages surface\n$")
+        self.assertRegex(self.run_script("absent.npz").stderr,
+                         r"absent\.npz is missing; run scripts/install-packages surface\n$")
 
     @unittest.skipUnless(os.path.exists(PACKAGED), "python-matplotlib-data is not installed")
     def test_the_packaged_file(self):

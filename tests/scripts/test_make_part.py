@@ -94,7 +94,8 @@ class MakePart(unittest.TestCase):
     def test_features_have_their_heights(self):
         for what, x, y, height in (("top", 48.3, 28.7, 25), ("floor of the pocket", 12.1, 33.3, 11), ("boss", 26.3, 40.1, 21),
                                    ("slot", 60.2, 19.1, 17), ("rib", 60.2, 8.3, 28), ("stem of the K", 7.3, 9.1, 23.75),
-                                   ("counter of the R", 18.2, 14.6, 25), ("bowl of the P", 36.9, 14.9, 23.75), ("between letters", 13.6, 12.1, 25),
+                                   ("counter of the R", 18.2, 14.6, 25), ("bowl of the P", 36.9, 14.9, 23.75),
+                                   ("between letters", 13.6, 12.1, 25),
                                    ("chamfer", 0.75, 30.1, 24.25), ("counter of the P", 34.7, 14.9, 25)):
             crossed = self.heights(x, y)
             self.assertEqual([up for _, up in crossed], [False, True], what)

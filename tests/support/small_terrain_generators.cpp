@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "support/byte_reader.hpp"
 #include "support/small_terrain.hpp"
 
 namespace krepl::test {
@@ -12,34 +13,22 @@ namespace {
 using Triangle = SmallTerrain::Triangle;
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-class Reader {
- public:
-  explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-  bool more() const { return at_ < bytes_.size(); }
-  unsigned byte() { return more() ? bytes_[at_++] : 0; }
-  unsigned below(unsigned n) { return byte() % n; }
-
- private:
-  std::span<const std::uint8_t> bytes_;
-  std::size_t at_ = 0;
-};
-
 // Radii at which balls touch many lattice points at once, and others.
-double any_radius(Reader& in) {
+double any_radius(ByteReader& in) {
   static const double table[] = {0.25,           0.3, 0.5, 0.75, 1, 1.25, 1.5, 2, 2.5, std::sqrt(0.5), std::sqrt(2.0),
                                  std::sqrt(5.0), 3,   5,   7,    20};
   return table[in.below(16)];
 }
 
 /// A grid of up to 6 x 6 samples; all that is left to read are its heights.
-void shape(Reader& in, SmallTerrain& c) {
+void shape(ByteReader& in, SmallTerrain& c) {
   c.grid.columns = 2 + in.below(5);
   c.grid.rows = 2 + in.below(5);
   c.grid.split = Terrain::Split(in.below(3));
   c.heights.assign(c.grid.columns * c.grid.rows, 0);
 }
 
-void diagonals(Reader& in, SmallTerrain& c) {
+void diagonals(ByteReader& in, SmallTerrain& c) {
   shape(in, c);
   const unsigned most = 2 + in.below(4);
   std::vector<double> z(c.heights.size());
@@ -58,7 +47,7 @@ void diagonals(Reader& in, SmallTerrain& c) {
   }
 }
 
-void steps(Reader& in, SmallTerrain& c) {
+void steps(ByteReader& in, SmallTerrain& c) {
   c.is_grid = false;
   const unsigned columns = 1 + in.below(3), rows = 1 + in.below(3), most = 2 + in.below(3);
   std::vector<double> z(columns * rows);
@@ -78,7 +67,7 @@ void steps(Reader& in, SmallTerrain& c) {
   }
 }
 
-void soup(Reader& in, SmallTerrain& c) {
+void soup(ByteReader& in, SmallTerrain& c) {
   c.is_grid = false;
   const auto point = [&] {
     const unsigned b = in.byte();
@@ -121,7 +110,7 @@ SmallTerrain decode_small_terrain(std::span<const std::uint8_t> bytes) {
 }
 
 SmallTerrain decode_small_terrain(SmallTerrainFamily family, std::span<const std::uint8_t> bytes) {
-  Reader in(bytes);
+  ByteReader in(bytes);
   SmallTerrain c;
   c.radius = any_radius(in);
   switch (family) {

@@ -4,29 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/byte_reader.hpp"
+
 namespace krepl::test {
 
 namespace {
 
-class Reader {
- public:
-  explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-  bool more() const { return at_ < bytes_.size(); }
-  unsigned byte() { return more() ? bytes_[at_++] : 0; }
-  unsigned below(unsigned n) { return byte() % n; }
-  Point grid() {
-    const unsigned b = byte();
-    return {double(b & 15), double(b >> 4)};
-  }
-  double unit() { return (byte() * 256.0 + byte()) / 65536; }
-
- private:
-  std::span<const std::uint8_t> bytes_;
-  std::size_t at_ = 0;
-};
-
 // Half grid steps, half diagonals, half knight's moves: where zones of grid vertices touch; and both ends of the range.
-double grid_radius(Reader& in) {
+double grid_radius(ByteReader& in) {
   static const std::array<double, 20> table{0.5,
                                             1,
                                             1.5,
@@ -50,7 +35,7 @@ double grid_radius(Reader& in) {
   return table[in.below(table.size())];
 }
 
-void grid_lines(Reader& in, ZoneCase& c) {
+void grid_lines(ByteReader& in, ZoneCase& c) {
   c.radius = grid_radius(in);
   std::vector<Point> v{in.grid()};
   while (in.more()) {
@@ -60,7 +45,7 @@ void grid_lines(Reader& in, ZoneCase& c) {
   c.parts.push_back(line(std::move(v)));
 }
 
-void grid_points(Reader& in, ZoneCase& c) {
+void grid_points(ByteReader& in, ZoneCase& c) {
   c.radius = grid_radius(in);
   do {
     const Point p = in.grid();
@@ -68,7 +53,7 @@ void grid_points(Reader& in, ZoneCase& c) {
   } while (in.more());
 }
 
-void streets(Reader& in, ZoneCase& c) {
+void streets(ByteReader& in, ZoneCase& c) {
   const double block = 1 + in.below(16);
   const unsigned nx = 1 + in.below(6), ny = 1 + in.below(6);
   const double slope = in.below(3) == 0 ? 0 : in.unit() * 2;
@@ -90,7 +75,7 @@ void streets(Reader& in, ZoneCase& c) {
 
 Point between(Point a, Point b, double t) { return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}; }
 
-void on_segments(Reader& in, ZoneCase& c) {
+void on_segments(ByteReader& in, ZoneCase& c) {
   c.radius = grid_radius(in);
   std::vector<std::pair<Point, Point>> segments{{in.grid(), in.grid()}};
   do {
@@ -104,7 +89,7 @@ void on_segments(Reader& in, ZoneCase& c) {
   for (const auto& [a, b] : segments) c.parts.push_back(line({a, b}));
 }
 
-void collinear(Reader& in, ZoneCase& c) {
+void collinear(ByteReader& in, ZoneCase& c) {
   c.radius = grid_radius(in);
   const Point a = in.grid(), b = in.grid();
   do {
@@ -114,7 +99,7 @@ void collinear(Reader& in, ZoneCase& c) {
   } while (in.more());
 }
 
-void tangent(Reader& in, ZoneCase& c) {
+void tangent(ByteReader& in, ZoneCase& c) {
   static constexpr std::array<std::array<int, 3>, 4> triples{{{1, 0, 1}, {3, 4, 5}, {5, 12, 13}, {-8, 15, 17}}};
   const auto& t = triples[in.below(4)];
   // Along (t0, t1), apart by multiples of R along its left normal; exact in integers.
@@ -127,7 +112,7 @@ void tangent(Reader& in, ZoneCase& c) {
   } while (in.more());
 }
 
-void cocircular(Reader& in, ZoneCase& c) {
+void cocircular(ByteReader& in, ZoneCase& c) {
   // Integer points on the circle of radius 65.
   static constexpr std::array<std::array<int, 2>, 9> points{
       {{65, 0}, {63, 16}, {60, 25}, {56, 33}, {52, 39}, {39, 52}, {33, 56}, {25, 60}, {16, 63}}};
@@ -145,7 +130,7 @@ void cocircular(Reader& in, ZoneCase& c) {
   if (!v.empty()) c.parts.push_back(line(std::move(v)));
 }
 
-void near_equal(Reader& in, ZoneCase& c) {
+void near_equal(ByteReader& in, ZoneCase& c) {
   grid_lines(in, c);
   unsigned k = 0;
   for (InputPart& part : c.parts)
@@ -157,7 +142,7 @@ void near_equal(Reader& in, ZoneCase& c) {
     }
 }
 
-void rings(Reader& in, ZoneCase& c) {
+void rings(ByteReader& in, ZoneCase& c) {
   c.radius = grid_radius(in);
   std::vector<Point> v{in.grid()};
   std::int64_t feature = 0;
@@ -170,7 +155,7 @@ void rings(Reader& in, ZoneCase& c) {
   c.parts.push_back(ring(std::move(v), feature));
 }
 
-void digitised(Reader& in, ZoneCase& c) {
+void digitised(ByteReader& in, ZoneCase& c) {
   const unsigned n = 3 + in.below(62);
   const double size = 10;
   static constexpr std::array<double, 8> factors{1, 1 + 1e-9, 1 - 1e-9, 0.999, 1.001, 0.5, 1 - 1e-15, 1.1};
@@ -186,7 +171,7 @@ void digitised(Reader& in, ZoneCase& c) {
   }
 }
 
-void scattered(Reader& in, ZoneCase& c) {
+void scattered(ByteReader& in, ZoneCase& c) {
   c.radius = std::ldexp(1 + in.unit(), int(in.below(16)) - 8);
   do {
     std::vector<Point> v{{16 * in.unit(), 16 * in.unit()}};
@@ -199,7 +184,7 @@ void scattered(Reader& in, ZoneCase& c) {
   } while (in.more());
 }
 
-void comb(Reader& in, ZoneCase& c) {
+void comb(ByteReader& in, ZoneCase& c) {
   c.radius = grid_radius(in);
   std::vector<Point> v{{0, 0}};
   do {
@@ -248,7 +233,7 @@ ZoneCase decode(Family family, std::span<const std::uint8_t> bytes) {
   static constexpr std::array makers{grid_lines, grid_points, streets, on_segments, collinear, tangent,
                                      cocircular, near_equal,  rings,   digitised,   scattered, comb};
   static_assert(makers.size() == std::size_t(Family::count));
-  Reader in(bytes);
+  ByteReader in(bytes);
   const unsigned motion = in.byte();
   ZoneCase c;
   makers[std::size_t(family)](in, c);

@@ -136,8 +136,8 @@ class BruteForce {
   std::vector<Part> parts_;
 };
 
-/// Everything that can be told without locating points: topology, labels, that along every edge the ball touches both features and
-/// nothing is nearer, and that every feature that is clearly visible somewhere owns a face.
+/// Everything that can be told without locating points: topology, labels, that along every edge the ball touches both
+/// features and nothing is nearer, and that every feature that is clearly visible somewhere owns a face.
 void expect_true(const std::shared_ptr<const Terrain>& terrain, double radius, unsigned seed, const std::string& name) {
   SCOPED_TRACE(name + ", radius " + std::to_string(radius));
   const auto surface = compute_surface(terrain, {radius});
@@ -229,8 +229,8 @@ TEST(Surface, Meshes) {
                      {{4, 5, 6}, {4, 6, 7}, {0, 2, 1}, {0, 3, 2}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7},
                       {2, 7, 6}, {3, 0, 4}, {3, 4, 7}}),
                 radius, 3, "box");
-    expect_true(mesh({{0, 0, 0}, {4, 0, 0}, {2, 3, 0}, {1, 1, 2}, {3, 1.5, 2}, {2, -1, 2.5}}, {{0, 1, 2}, {3, 4, 5}}), radius, 4,
-                "one above the other");
+    expect_true(mesh({{0, 0, 0}, {4, 0, 0}, {2, 3, 0}, {1, 1, 2}, {3, 1.5, 2}, {2, -1, 2.5}}, {{0, 1, 2}, {3, 4, 5}}),
+                radius, 4, "one above the other");
   }
 }
 
@@ -245,8 +245,9 @@ TEST(Surface, CounterExample) {
   for (const bool right : {false, true}) {
     const Terrain::Index b = right ? 1 : 2, o = right ? 6 : 0, a = 0;
     const Terrain::Index q = 3 + o, q2 = 4 + o, q3 = 5 + o, n = 6 + o, f = 7 + o, g = 8 + o;
-    for (const std::array<Terrain::Index, 3> tri : {std::array<Terrain::Index, 3>{a, b, q}, {a, q, q2}, {q, b, q3}, {q, n, q2},
-                                                     {q, q3, n}, {q2, n, q3}, {b, f, q3}, {q3, f, q2}, {q2, f, g}, {g, a, q2}}) {
+    using Triangle = std::array<Terrain::Index, 3>;
+    for (const Triangle tri : {Triangle{a, b, q}, {a, q, q2}, {q, b, q3}, {q, n, q2}, {q, q3, n}, {q2, n, q3}, {b, f, q3},
+                               {q3, f, q2}, {q2, f, g}, {g, a, q2}}) {
       t.push_back(tri);
     }
   }
@@ -255,7 +256,8 @@ TEST(Surface, CounterExample) {
 
 TEST(Surface, FarFromTheOriginAndScaled) {
   const auto z = [](int c, int r) { return double((c * 7 + r * 5) % 4); };
-  const auto near = grid(8, 8, z), far = grid(8, 8, z, {500000.5, 5400000.25}), large = grid(8, 8, [&](int c, int r) { return 1024 * z(c, r); }, {0, 0}, 1024);
+  const auto near = grid(8, 8, z), far = grid(8, 8, z, {500000.5, 5400000.25});
+  const auto large = grid(8, 8, [&](int c, int r) { return 1024 * z(c, r); }, {0, 0}, 1024);
   const auto a = compute_surface(near, {1.5}), b = compute_surface(far, {1.5}), c = compute_surface(large, {1.5 * 1024});
   ASSERT_TRUE(a && b && c);
   for (const auto* other : {&*b, &*c}) {
@@ -281,7 +283,8 @@ TEST(Surface, SameFromAnyNumberOfThreads) {
 
 TEST(Surface, RefusesBadRadius) {
   const auto t = grid(3, 3, [](int, int) { return 0.0; });
-  for (const double radius : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e-20}) {
+  for (const double radius :
+       {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e-20}) {
     const auto s = compute_surface(t, {radius});
     ASSERT_FALSE(s);
     EXPECT_EQ(s.error().code, ErrorCode::usage);

@@ -54,8 +54,8 @@ FourTriangles four(const Triangle& t) {
 FourBlocks block(const Triangle& t) {
   const double x0 = std::min({t.a.x, t.b.x, t.c.x}), x1 = std::max({t.a.x, t.b.x, t.c.x});
   const double y0 = std::min({t.a.y, t.b.y, t.c.y}), y1 = std::max({t.a.y, t.b.y, t.c.y});
-  return {float(std::max({t.a.z, t.b.z, t.c.z})), float(t.slope_x * (x0 + x1) / 2 + t.slope_y * (y0 + y1) / 2), float(t.slope_x),
-          float(t.slope_y), float(x0), float(x1), float(y0), float(y1)};
+  return {float(std::max({t.a.z, t.b.z, t.c.z})), float(t.slope_x * (x0 + x1) / 2 + t.slope_y * (y0 + y1) / 2),
+          float(t.slope_x), float(t.slope_y), float(x0), float(x1), float(y0), float(y1)};
 }
 
 float first(Float4 four) {
@@ -95,7 +95,8 @@ TEST(DropBounds, LieAboveAllPlacesOfARectangle) {
   const BallBound ball(1, 1e-6);
   for (int k = 0; k < int(500 * effort()); ++k) {
     const Triangle t = any_triangle(random, exponential(random, -2, 0), exponential(random, -2, 0.7));
-    const ManyPlaces many{float(exponential(random, -3, 0)), float(exponential(random, -3, 0)), float(uniform(random, -1, 1)), float(uniform(random, -1, 1))};
+    const ManyPlaces many{float(exponential(random, -3, 0)), float(exponential(random, -3, 0)),
+                          float(uniform(random, -1, 1)), float(uniform(random, -1, 1))};
     const float by_triangle = first(bound(ball, four(t), many)), by_block = first(bound(ball, block(t), many));
     for (int i = 0; i < 9; ++i) {
       const double x = many.half_x * (i % 3 - 1), y = many.half_y * (i / 3 - 1);
@@ -118,7 +119,9 @@ TEST(DropBounds, TouchesInDoubleAndQuadruplePrecisionAgree) {
   Random random(seed());
   for (int k = 0; k < int(20000 * effort()); ++k) {
     const double size = exponential(random, -2, 2);
-    const auto point = [&] { return Point3{size * uniform(random, -1, 1), size * uniform(random, -1, 1), size * uniform(random, -1, 1)}; };
+    const auto point = [&] {
+      return Point3{size * uniform(random, -1, 1), size * uniform(random, -1, 1), size * uniform(random, -1, 1)};
+    };
     const Point3 a = point(), b = point(), c = point();
     const Ball ball{{uniform(random, -1, 1), uniform(random, -1, 1)}, 1, 1};
     const auto near = [&](double x, double y) { return x == y || std::abs(x - y) <= 1e-13 * (1 + size); };

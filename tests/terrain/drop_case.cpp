@@ -100,9 +100,11 @@ double distance_to(Point3 p, const Terrain::Corners& c) {
   using Real = long double;
   if (c.count == 1) return distance(p, c.point[0]);
   if (c.count == 2) {
-    return double(std::sqrt(squared_distance_to_segment<Real>(vector<Real>(p), vector<Real>(c.point[0]), vector<Real>(c.point[1]))));
+    return double(std::sqrt(
+        squared_distance_to_segment<Real>(vector<Real>(p), vector<Real>(c.point[0]), vector<Real>(c.point[1]))));
   }
-  return double(std::sqrt(squared_distance<Real>(vector<Real>(p), {vector<Real>(c.point[0]), vector<Real>(c.point[1]), vector<Real>(c.point[2])})));
+  return double(std::sqrt(squared_distance<Real>(
+      vector<Real>(p), {vector<Real>(c.point[0]), vector<Real>(c.point[1]), vector<Real>(c.point[2])})));
 }
 
 std::string number(double x) {
@@ -140,8 +142,8 @@ std::optional<std::string> fault_of(const DropCase& c, Point place, double radiu
   if (!right(brute_height(c, place, radius, false))) {
     const std::optional<double> height = brute_height(c, place, radius, true);
     if (!right(height)) {
-      return "height " + number(contact.height) + " in place of " + (height ? number(*height) : "none") + " at " + number(place.x) +
-             ", " + number(place.y) + " with radius " + number(radius);
+      return "height " + number(contact.height) + " in place of " + (height ? number(*height) : "none") + " at " +
+             number(place.x) + ", " + number(place.y) + " with radius " + number(radius);
     }
   }
   if (!contact.touches()) return std::nullopt;

@@ -51,7 +51,8 @@ TEST_P(DropOrder, RasterEqualsPlaces) {
     const DropCutter::Raster raster = any_raster(random, c);
     std::vector<Contact> one_by_one;
     for (std::size_t row = 0; row < raster.rows; ++row)
-      for (std::size_t column = 0; column < raster.columns; ++column) one_by_one.push_back(cutter.at(raster.place(column, row)));
+      for (std::size_t column = 0; column < raster.columns; ++column)
+        one_by_one.push_back(cutter.at(raster.place(column, row)));
     for (const unsigned threads : {1u, 2u, 5u}) {
       Context context;
       context.threads = threads;
@@ -59,7 +60,8 @@ TEST_P(DropOrder, RasterEqualsPlaces) {
       ASSERT_TRUE(cutter.at(raster, together, context).ok());
       for (std::size_t i = 0; i < together.size(); ++i) {
         ASSERT_EQ(one_by_one[i].feature, together[i].feature)
-            << c.name << ", radius " << cutter.radius() << ", place " << i << ", heights " << one_by_one[i].height << " " << together[i].height;
+            << c.name << ", radius " << cutter.radius() << ", place " << i << ", heights " << one_by_one[i].height
+            << " " << together[i].height;
         ASSERT_EQ(one_by_one[i], together[i]);
       }
     }

@@ -66,7 +66,8 @@ TEST(DropShapes, SlopeTouchesWhereItIsNormal) {
 }
 
 TEST(DropShapes, PeakRidgeAndRimAreExact) {
-  const DropCase peak = mesh_case("peak", {{-9, -9, -90}, {9, -9, -90}, {0, 9, -90}, {0, 0, 0}}, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  const DropCase peak =
+      mesh_case("peak", {{-9, -9, -90}, {9, -9, -90}, {0, 9, -90}, {0, 0, 0}}, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
   const Contact summit = drop(peak, 5, {3, 0});
   EXPECT_DOUBLE_EQ(summit.height + peak.terrain->origin().z, 4.0);
   EXPECT_EQ(peak.terrain->feature_kind(summit.feature), Kind::vertex);
@@ -125,8 +126,10 @@ TEST(DropShapes, VerticalWallCountsByItsUpperEdge) {
 
 TEST(DropShapes, OverhangCountsByItsUpperSide) {
   // A table: a plate of thickness 1 at height 4 over a floor.
-  const DropCase c = mesh_case("table", {{-9, -9, 0}, {9, -9, 0}, {0, 12, 0}, {-2, -2, 4}, {2, -2, 4}, {0, 3, 4}, {-2, -2, 5}, {2, -2, 5}, {0, 3, 5}},
-                               {{0, 1, 2}, {3, 5, 4}, {6, 7, 8}});
+  const DropCase c = mesh_case(
+      "table",
+      {{-9, -9, 0}, {9, -9, 0}, {0, 12, 0}, {-2, -2, 4}, {2, -2, 4}, {0, 3, 4}, {-2, -2, 5}, {2, -2, 5}, {0, 3, 5}},
+      {{0, 1, 2}, {3, 5, 4}, {6, 7, 8}});
   const Point3 o = c.terrain->origin();
   const Contact contact = drop(c, 1, {-o.x, -o.y});
   EXPECT_DOUBLE_EQ(contact.height + o.z, 6.0);

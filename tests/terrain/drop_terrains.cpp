@@ -101,7 +101,8 @@ DropCase hollow(Random& random) {
   Terrain::Grid grid = any_grid(random);
   const double radius = double(grid.columns + grid.rows) * grid.cell_x;
   return grid_case("hollow", grid, heights(grid, [&](std::size_t i, std::size_t j) {
-    const double x = (double(i) - double(grid.columns) / 2) * grid.cell_x, y = (double(j) - double(grid.rows) / 2) * grid.cell_y;
+    const double x = (double(i) - double(grid.columns) / 2) * grid.cell_x;
+    const double y = (double(j) - double(grid.rows) / 2) * grid.cell_y;
     return -std::sqrt(radius * radius - x * x - y * y);
   }));
 }
@@ -132,7 +133,8 @@ DropCase soup(Random& random) {
     const Point3 at{uniform(random, 0, 10), uniform(random, 0, 10), uniform(random, 0, 3)};
     for (int k = 0; k < 3; ++k) {
       const double flatness = random() % 4 == 0 ? 1e-4 : 1;
-      vertices.push_back({at.x + size * uniform(random, -1, 1), at.y + size * flatness * uniform(random, -1, 1), at.z + size * uniform(random, -1, 1)});
+      vertices.push_back({at.x + size * uniform(random, -1, 1), at.y + size * flatness * uniform(random, -1, 1),
+                          at.z + size * uniform(random, -1, 1)});
     }
     const Index n = Index(3 * t);
     triangles.push_back({n, n + 1, n + 2});
@@ -191,7 +193,8 @@ DropCase grid_case(std::string name, const Terrain::Grid& grid, std::vector<doub
   c.terrain = std::make_shared<const Terrain>(std::move(*terrain));
   const Point first = c.terrain->grid().first;
   const auto at = [&](std::size_t i, std::size_t j) {
-    return Point3{first.x + double(i) * grid.cell_x, first.y + double(j) * grid.cell_y, z[j * grid.columns + i] - c.terrain->origin().z};
+    return Point3{first.x + double(i) * grid.cell_x, first.y + double(j) * grid.cell_y,
+                  z[j * grid.columns + i] - c.terrain->origin().z};
   };
   const auto add = [&](Point3 a, Point3 b, Point3 d) {
     if (!std::isnan(a.z) && !std::isnan(b.z) && !std::isnan(d.z)) c.triangles.push_back({a, b, d});
@@ -243,9 +246,10 @@ DropCase as_mesh(const DropCase& grid) {
 
 const std::vector<DropFamily>& drop_families() {
   static const std::vector<DropFamily> families{
-      {"rough_grid", rough_grid}, {"grid_with_holes", grid_with_holes}, {"whole_numbers", whole_numbers}, {"flat", flat},
-      {"spikes", spikes},         {"hollow", hollow},                   {"far_away", far_away},           {"large_grid", large_grid},
-      {"grid_as_mesh", grid_as_mesh}, {"soup", soup},                   {"boxes", boxes},                 {"walls", walls}};
+      {"rough_grid", rough_grid}, {"grid_with_holes", grid_with_holes}, {"whole_numbers", whole_numbers},
+      {"flat", flat},             {"spikes", spikes},                   {"hollow", hollow},
+      {"far_away", far_away},     {"large_grid", large_grid},           {"grid_as_mesh", grid_as_mesh},
+      {"soup", soup},             {"boxes", boxes},                     {"walls", walls}};
   return families;
 }
 

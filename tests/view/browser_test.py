@@ -142,10 +142,11 @@ class PageTest(unittest.TestCase):
 
     def test_wheel_zooms_about_the_pointer_and_keys_work(self):
         self.browser.open(page_of("ring", RING))
-        before = self.browser.evaluate("({s: kreplView.camera.scale, x: kreplView.camera.toX(500), y: kreplView.camera.toY(300)})")
+        state = "({s: kreplView.camera.scale, x: kreplView.camera.toX(500), y: kreplView.camera.toY(300)})"
+        before = self.browser.evaluate(state)
         self.browser.mouse("mouseWheel", 500, 300, deltaX=0, deltaY=-400)
         self.browser.wait(f"kreplView.camera.scale !== {before['s']}")
-        after = self.browser.evaluate("({s: kreplView.camera.scale, x: kreplView.camera.toX(500), y: kreplView.camera.toY(300)})")
+        after = self.browser.evaluate(state)
         self.assertGreater(after["s"], 1.5 * before["s"])
         self.assertAlmostEqual(after["x"], before["x"], 9)
         self.assertAlmostEqual(after["y"], before["y"], 9)

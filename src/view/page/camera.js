@@ -18,7 +18,8 @@ class Camera {
   fit() {
     const b = this.bounds, margin = 28, width = Math.max(50, this.width - this.inset - 2 * margin);
     const height = Math.max(50, this.height - 2 * margin);
-    this.scale = Math.min(width / Math.max(b[2] - b[0], this.extent * 1e-6), height / Math.max(b[3] - b[1], this.extent * 1e-6));
+    const least = this.extent * 1e-6;
+    this.scale = Math.min(width / Math.max(b[2] - b[0], least), height / Math.max(b[3] - b[1], least));
     this.x = (b[0] + b[2]) / 2 - this.inset / 2 / this.scale;
     this.y = (b[1] + b[3]) / 2;
     this.fitted = this.scale;

@@ -89,7 +89,8 @@ class Chunks {
         if (drawn !== v) sink.coarse(v);
         sink.piece(p, v);
         drawn = next;
-      } else if (j + 1 === end || Math.abs(xy[2 * next] - xy[2 * drawn]) >= detail || Math.abs(xy[2 * next + 1] - xy[2 * drawn + 1]) >= detail) {
+      } else if (j + 1 === end || Math.abs(xy[2 * next] - xy[2 * drawn]) >= detail ||
+                 Math.abs(xy[2 * next + 1] - xy[2 * drawn + 1]) >= detail) {
         sink.coarse(next);
         drawn = next;
       }

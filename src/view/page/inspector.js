@@ -64,7 +64,9 @@ function describeHit(page, hit) {
   if (!hit) return null;
   const {layer, p, v, chain} = hit, arc = isArc(layer, p) ? arcOf(layer, p, v) : null, xy = layer.xy;
   let source = sourceOf(layer, p);
-  if (layer.role === 'input') source = {feature: layer.parts[2 * chain], part: layer.parts[2 * chain + 1], vertex: v - layer.vertexBegin[chain]};
+  if (layer.role === 'input') {
+    source = {feature: layer.parts[2 * chain], part: layer.parts[2 * chain + 1], vertex: v - layer.vertexBegin[chain]};
+  }
   return {
     layer: layer.index, role: layer.role, zoneRadius: layer.radius, piece: p, chain, kind: kindName(layer, p),
     hole: layer.chainKind[chain] === HOLE, source, radius: arc ? arc.r : null,
@@ -119,7 +121,8 @@ class Inspector {
       if (!layer.shown || layer.pieces === 0) continue;
       const hit = this.grid(layer.index).nearest(x, y, 9 / camera.scale);
       if (!hit || (best && hit.distance > best.distance)) continue;
-      const hidden = layer.role !== 'input' && (isArc(layer, hit.p) ? !options.arcs : layer.kind[hit.p] === SEGMENT && !options.segments);
+      const hidden = layer.role !== 'input' &&
+        (isArc(layer, hit.p) ? !options.arcs : layer.kind[hit.p] === SEGMENT && !options.segments);
       if (!hidden || (hit.layer.chainKind[hit.chain] === HOLE && options.holes)) best = hit;
     }
     return best;

@@ -48,8 +48,8 @@ class Panel {
     const layers = document.getElementById('layers'), parts = document.getElementById('parts');
     for (const layer of [...page.layers].reverse()) {
       const swatch = layer.role === 'input' ? ['line', () => scene.color.input] : ['', () => scene.tint(layer)];
-      this.row(layers, 'layer-' + layer.index, layerTitle(page, layer), layerFacts(page, layer).join(' · '), swatch, layer.shown,
-        on => { layer.shown = on; });
+      this.row(layers, 'layer-' + layer.index, layerTitle(page, layer), layerFacts(page, layer).join(' · '), swatch,
+        layer.shown, on => { layer.shown = on; });
     }
     const bodies = page.layers.filter(layer => layer.role !== 'input');
     const sum = name => bodies.reduce((total, layer) => total + layer[name], 0), color = name => () => scene.color[name];
@@ -58,7 +58,9 @@ class Panel {
     part('fill', 'Inside', '', ['', () => scene.tint(bodies[bodies.length - 1])]);
     part('segments', 'Segments', NUMBER.format(sum('segments')), ['line', color('segment')]);
     part('arcs', 'Arcs', NUMBER.format(sum('arcs')), ['line', color('arc')]);
-    if (bodies.some(layer => layer.role === 'zone')) part('holes', 'Holes, marked', NUMBER.format(sum('holes')), ['line', color('hole')]);
+    if (bodies.some(layer => layer.role === 'zone')) {
+      part('holes', 'Holes, marked', NUMBER.format(sum('holes')), ['line', color('hole')]);
+    }
     part('vertices', 'Vertices, where they can be told apart', '', ['dot', color('vertex')]);
     this.paint();
   }

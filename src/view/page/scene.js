@@ -137,7 +137,8 @@ class Scene {
   }
 
   strokeInput(g, chunks, view) {
-    const {paths, drawn} = strokePaths(chunks, this.camera, view, {segments: true, arcs: true, kinds: true}), layer = chunks.layer;
+    const {paths, drawn} = strokePaths(chunks, this.camera, view, {segments: true, arcs: true, kinds: true});
+    const layer = chunks.layer;
     this.drawn += drawn;
     g.strokeStyle = g.fillStyle = this.color.input;
     g.lineWidth = this.lineWidth(layer) * 0.9;
@@ -166,7 +167,8 @@ class Scene {
     g.fillStyle = this.color.vertex;
     g.beginPath();
     for (let c = 0; c < layer.chains; ++c) {
-      if (chunks.visible(c, sparse)) chunks.walk(c, sparse, {hidden: nothing, coarse: nothing, piece: (p, v) => { dot(v); dot(v + 1); }});
+      if (!chunks.visible(c, sparse)) continue;
+      chunks.walk(c, sparse, {hidden: nothing, coarse: nothing, piece: (p, v) => { dot(v); dot(v + 1); }});
     }
     g.fill();
   }
