@@ -217,12 +217,24 @@ bool Cells::curve_is_simple(const Turn& t, const Box& box) const {
     return (envelope_.derivative_range(t.before, box, {x, y}) - envelope_.derivative_range(t.after, box, {x, y})).excludes_zero();
   };
   if (never_along(1, 0) || never_along(0, 1) || never_along(1, 1) || never_along(1, -1)) return true;
+  // Of two faces in one plane the first one shows wherever it is: along its straight sides.
+  const Index first = std::min(t.before, t.after);
+  if (t.before != none && t.after != none && are_coplanar(t.before, t.after, box)) return !corner_in(first, box);
   // Along an edge its cylinder rises evenly, even near the rim.
   for (const Index l : {t.before, t.after}) {
     const Patch& f = envelope_.patches()[l];
     if (f.kind == Terrain::FeatureKind::edge && (never_along(f.gx, f.gy) || never_along(-f.gy, f.gx))) return true;
   }
   return false;
+}
+
+bool Cells::are_coplanar(Index a, Index b, const Box& box) const {
+  const PatchSet& patches = envelope_.patches();
+  if (patches[a].kind != Terrain::FeatureKind::face || patches[b].kind != Terrain::FeatureKind::face) return false;
+  const Point mid = box.middle();
+  const double dx = std::fabs(patches[a].gx - patches[b].gx), dy = std::fabs(patches[a].gy - patches[b].gy);
+  const double apart = std::fabs(patches.extended_height(a, mid) - patches.extended_height(b, mid));
+  return apart + dx * box.half_x() + dy * box.half_y() <= envelope_.noise();
 }
 
 bool Cells::settle_arc(const Box& box, bool smallest) {
@@ -370,9 +382,10 @@ bool Cells::settle_star(const Box& box, bool smallest) {
       }
     }
   }
-  const std::optional<Point> p = star_point(box);
-  if (!p && !smallest) return false;
-  add_vertex(p ? *p : least_gap(box));
+  const std::optional<Point> found = star_point(box);
+  if (!found && !smallest) return false;
+  const Point p = found ? *found : least_gap(box);
+  add_vertex(corner_beside(p, box).value_or(p));
   return true;
 }
 
@@ -397,6 +410,30 @@ Point Cells::least_gap(const Box& box) const {
     }
   }
   return best;
+}
+
+/// The corner at which a patch's sides end that bound it at two turns in a row, if it lies close to p. Where the two are tangent, the
+/// patch is too thin to show for a stretch beyond its corner.
+std::optional<Point> Cells::corner_beside(Point p, const Box& box) const {
+  const PatchSet& patches = envelope_.patches();
+  std::optional<Point> nearest;
+  double least = 0x1p-12 * patches.radius();
+  for (std::size_t i = 0; i < turns_.size(); ++i) {
+    const Turn &from = turns_[i], &to = turns_[(i + 1) % turns_.size()];
+    Index patch = none;
+    if (from.after == none || !sides_of_one_patch(from, to, box, patch) || patch != from.after) continue;
+    const Bound *a = side_along(from), *b = side_along(to);
+    if (a == nullptr || b == nullptr) continue;
+    for (const Point c : patches.corners(patch)) {
+      const double apart = std::hypot(c.x - p.x, c.y - p.y);
+      const auto ends = [&](const Bound& side) {
+        const Gradient g = envelope_.bound_gradient(side, c);
+        return std::fabs(side.value(c, patches.square_radius())) <= 4 * envelope_.tolerance() * (1 + std::hypot(g.x, g.y));
+      };
+      if (apart < least && ends(*a) && ends(*b)) least = apart, nearest = c;
+    }
+  }
+  return nearest;
 }
 
 void Cells::add_vertex(Point at) {

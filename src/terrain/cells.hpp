@@ -101,6 +101,7 @@ class Cells {
   bool settle_star(const Box& box, bool smallest);
   std::optional<Point> star_point(const Box& box) const;
   Point least_gap(const Box& box) const;
+  std::optional<Point> corner_beside(Point p, const Box& box) const;
   std::optional<Point> common_corner(const Box& box) const;
   bool all_reach(Point p) const;
   bool is_wall_of(const Turn& turn, Index label) const;
@@ -108,6 +109,7 @@ class Cells {
   bool has_corner(Index patch, Point p) const;
   bool share_corner(Index a, Index b, Point p) const;
   bool curve_is_simple(const Turn& turn, const Box& box) const;
+  bool are_coplanar(Index a, Index b, const Box& box) const;
   bool sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const;
   bool shows_all(const Cell& cell, std::span<const Index> candidates);
   bool is_seen(Index label) const;

@@ -48,6 +48,8 @@ class Envelope {
   const PatchSet& patches() const { return patches_; }
   /// Lengths and heights that differ by less are not told apart.
   double tolerance() const { return tolerance_; }
+  /// Heights that differ by less count as equal.
+  double noise() const { return noise_; }
   double smallest_cell() const { return smallest_cell_; }
 
   /// Highest candidate at p, among equals a face before an edge before a vertex, then the lowest feature number; none if no patch
