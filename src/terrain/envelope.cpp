@@ -590,7 +590,9 @@ Meeting Envelope::meeting(Index a, Index b, Point p) const {
   if (patches_.seam(a, b) != nullptr) return Meeting::seam;
   const bool a_ends = rim_at(a, p) != nullptr, b_ends = rim_at(b, p) != nullptr;
   if (!a_ends && !b_ends) return Meeting::valley;
-  const double difference = (a_ends ? rim_height(a, p) : clamped_height(a, p)) - (b_ends ? rim_height(b, p) : clamped_height(b, p));
+  const double difference = border_height(a, p) - border_height(b, p);
+  // Just before its end a patch falls steeply: where the other one is higher than its rim, it has met that one before.
+  if (a_ends != b_ends && (a_ends ? difference < 0 : difference > 0)) return Meeting::valley;
   const Gradient g = a_ends ? rim_gradient(a) : patches_.gradient(a, p), h = b_ends ? rim_gradient(b) : patches_.gradient(b, p);
   return std::fabs(difference) <= 64 * tolerance_ * (1 + std::hypot(g.x - h.x, g.y - h.y)) ? Meeting::valley : Meeting::rim;
 }
