@@ -120,30 +120,37 @@ std::optional<Point> Cells::star_point(const Box& box) const {
 
   if (const std::optional<Point> end = end_of_thin_bend(box)) return end;
   // A corner that two labels share, or two sides of one, is known beforehand; near the rim the curves there are tangent.
-  if (const std::optional<Point> corner = common_corner(box)) {
+  const auto passes = [&](std::size_t k, Point corner) {
+    const Condition& c = condition[k];
+    if (c.bound != nullptr && c.bound->type != Bound::Type::cone) {
+      const double scale = c.bound->type == Bound::Type::disc ? 2 * radius : 1;
+      return std::fabs(c.bound->value(corner, square)) <= 4 * envelope_.tolerance() * scale;
+    }
+    if (share_corner(turns_[k].before, turns_[k].after, corner)) return true;
+    const Gradient g = gradient(c, corner);
+    return std::fabs(value(c, corner)) <= 4 * envelope_.tolerance() * (1 + std::hypot(g.x, g.y));
+  };
+  const std::optional<Point> corner = common_corner(box);
+  if (corner) {
     if (!all_reach(*corner)) return std::nullopt;
     for (std::size_t k = 0; k < n; ++k) {
-      const Condition& c = condition[k];
-      if (c.bound != nullptr && c.bound->type != Bound::Type::cone) {
-        const double scale = c.bound->type == Bound::Type::disc ? 2 * radius : 1;
-        if (std::fabs(c.bound->value(*corner, square)) > 4 * envelope_.tolerance() * scale) return std::nullopt;
-        continue;
-      }
-      if (share_corner(turns_[k].before, turns_[k].after, *corner)) continue;
-      const Gradient g = gradient(c, *corner);
-      if (!(std::fabs(value(c, *corner)) <= 4 * envelope_.tolerance() * (1 + std::hypot(g.x, g.y)))) return std::nullopt;
+      if (!passes(k, *corner)) return std::nullopt;
     }
-    return corner;
+    // Patches that end in walls at one place can meet once more nearby.
+    const bool walls = std::any_of(turns_.begin(), turns_.end(), [&](const Turn& t) {
+      return t.after != none && t.meeting != Meeting::rim && envelope_.rim_at(t.after, *corner) != nullptr;
+    });
+    if (!walls) return corner;
   }
 
   // The two conditions whose curves cross at the largest angle; sides of domains before heights.
-  Point p = box.middle();
+  const Point middle = box.middle();
   std::size_t first = 0, second = 1;
   double best = -1;
   for (std::size_t i = 0; i < n; ++i) {
-    const Gradient g = gradient(condition[i], p);
+    const Gradient g = gradient(condition[i], middle);
     for (std::size_t j = i + 1; j < n; ++j) {
-      const Gradient h = gradient(condition[j], p);
+      const Gradient h = gradient(condition[j], middle);
       const double sizes = std::hypot(g.x, g.y) * std::hypot(h.x, h.y);
       double sine = sizes > 0 ? std::fabs(g.x * h.y - g.y * h.x) / sizes : 0;
       const int sides = (condition[i].bound != nullptr) + (condition[j].bound != nullptr);
@@ -153,33 +160,47 @@ std::optional<Point> Cells::star_point(const Box& box) const {
   }
   const Condition &c = condition[first], &d = condition[second];
   const double reach = 4 * box.larger_side();
-  bool converged = false;
-  for (int i = 0; i < 30 && !converged; ++i) {
-    const double f = value(c, p), e = value(d, p);
-    const Gradient g = gradient(c, p), h = gradient(d, p);
-    const double det = g.x * h.y - g.y * h.x;
-    if (det == 0 || !std::isfinite(det)) return std::nullopt;
-    const double dx = -(f * h.y - e * g.y) / det, dy = -(e * g.x - f * h.x) / det;
-    p = {p.x + dx, p.y + dy};
-    if (!(std::fabs(p.x - box.middle().x) <= reach && std::fabs(p.y - box.middle().y) <= reach)) return std::nullopt;
-    converged = std::fabs(dx) + std::fabs(dy) <= 0.25 * envelope_.tolerance();
-  }
-  if (!converged) return std::nullopt;
-  if (!(p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y)) return std::nullopt;
-
-  if (!all_reach(p)) return std::nullopt;
   const double tolerance = envelope_.tolerance();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double residual = std::fabs(value(condition[i], p));
-    double scale = 1;
-    if (condition[i].bound != nullptr && condition[i].bound->type == Bound::Type::disc) scale = 2 * radius;
-    if (condition[i].bound != nullptr && condition[i].bound->type == Bound::Type::cone) scale += std::fabs(condition[i].bound->c);
-    if (condition[i].bound == nullptr) {
-      const Gradient g = gradient(condition[i], p);
-      scale += std::hypot(g.x, g.y);
+  const auto solve = [&](Point p) -> std::optional<Point> {
+    bool converged = false;
+    for (int i = 0; i < 30 && !converged; ++i) {
+      const double f = value(c, p), e = value(d, p);
+      const Gradient g = gradient(c, p), h = gradient(d, p);
+      const double det = g.x * h.y - g.y * h.x;
+      if (det == 0 || !std::isfinite(det)) return std::nullopt;
+      const double dx = -(f * h.y - e * g.y) / det, dy = -(e * g.x - f * h.x) / det;
+      p = {p.x + dx, p.y + dy};
+      if (!(std::fabs(p.x - middle.x) <= reach && std::fabs(p.y - middle.y) <= reach)) return std::nullopt;
+      converged = std::fabs(dx) + std::fabs(dy) <= 0.25 * tolerance;
     }
-    if (!(residual <= tolerance * scale)) return std::nullopt;
+    if (!converged || !(p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y)) return std::nullopt;
+    if (!all_reach(p)) return std::nullopt;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Condition& k = condition[i];
+      double scale = 1;
+      if (k.bound != nullptr && k.bound->type == Bound::Type::disc) scale = 2 * radius;
+      if (k.bound != nullptr && k.bound->type == Bound::Type::cone) scale += std::fabs(k.bound->c);
+      if (k.bound == nullptr) {
+        const Gradient g = gradient(k, p);
+        scale += std::hypot(g.x, g.y);
+      }
+      if (!(std::fabs(value(k, p)) <= tolerance * scale)) return std::nullopt;
+    }
+    return p;
+  };
+  if (corner) {
+    const auto is_elsewhere = [&](Point start) {
+      const std::optional<Point> p = solve(start);
+      return p && std::hypot(p->x - corner->x, p->y - corner->y) > 16 * tolerance;
+    };
+    if (is_elsewhere(middle)) return std::nullopt;
+    for (const Turn& t : turns_) {
+      if (is_elsewhere(t.at)) return std::nullopt;
+    }
+    return corner;
   }
+  const std::optional<Point> p = solve(middle);
+  if (!p) return std::nullopt;
   // One vertex only: two sides of domains are enough, for heights the map must be one to one.
   if (c.bound == nullptr || d.bound == nullptr) {
     const auto range = [&](const Condition& k) {
