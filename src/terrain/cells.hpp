@@ -104,6 +104,8 @@ class Cells {
   std::optional<Point> corner_beside(Point p, const Box& box) const;
   std::optional<Point> common_corner(const Box& box) const;
   bool all_reach(Point p) const;
+  bool reaches(Index patch, Point p) const;
+  bool shows_at(Index patch, Point p) const;
   bool is_wall_of(const Turn& turn, Index label) const;
   const Bound* side_along(const Turn& turn) const;
   bool has_corner(Index patch, Point p) const;

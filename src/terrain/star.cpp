@@ -50,14 +50,30 @@ bool Cells::share_corner(Index a, Index b, Point p) const {
 
 /// True if every patch among the labels has p in its domain, or on its border as far as numbers tell.
 bool Cells::all_reach(Point p) const {
+  return std::all_of(turns_.begin(), turns_.end(), [&](const Turn& t) { return t.after == none || reaches(t.after, p); });
+}
+
+bool Cells::reaches(Index patch, Point p) const {
+  if (has_corner(patch, p)) return true;
   const PatchSet& patches = envelope_.patches();
+  for (const Bound& b : patches.bounds(patch)) {
+    const Gradient g = envelope_.bound_gradient(b, p);
+    const double value = b.value(p, patches.square_radius()), slack = 4 * envelope_.tolerance() * (1 + std::hypot(g.x, g.y));
+    if (b.negative ? value > slack : value < -slack) return false;
+  }
+  return true;
+}
+
+/// True if the patch reaches p, and no patch among the labels is higher there.
+bool Cells::shows_at(Index patch, Point p) const {
+  if (patch == none || !reaches(patch, p)) return false;
+  const PatchSet& patches = envelope_.patches();
+  const double h = envelope_.border_height(patch, p);
   for (const Turn& t : turns_) {
-    if (t.after == none || has_corner(t.after, p)) continue;
-    for (const Bound& b : patches.bounds(t.after)) {
-      const Gradient g = envelope_.bound_gradient(b, p);
-      const double value = b.value(p, patches.square_radius()), slack = 4 * envelope_.tolerance() * (1 + std::hypot(g.x, g.y));
-      if (b.negative ? value > slack : value < -slack) return false;
-    }
+    if (t.after == none || t.after == patch || !patches.contains(t.after, p)) continue;
+    const Gradient g = patches.gradient(patch, p), k = patches.gradient(t.after, p);
+    const double slack = 4 * envelope_.tolerance() * (1 + std::hypot(g.x - k.x, g.y - k.y));
+    if (envelope_.border_height(t.after, p) > h + slack) return false;
   }
   return true;
 }
@@ -143,8 +159,38 @@ std::optional<Point> Cells::star_point(const Box& box) const {
     if (!walls) return corner;
   }
 
-  // The two conditions whose curves cross at the largest angle; sides of domains before heights.
+  // The place near `start` where two of the conditions hold.
+  const double tolerance = envelope_.tolerance(), reach = 4 * box.larger_side();
   const Point middle = box.middle();
+  const auto solve = [&](const Condition& c, const Condition& d, Point start) -> std::optional<Point> {
+    Point p = start;
+    bool converged = false;
+    for (int i = 0; i < 30 && !converged; ++i) {
+      const double f = value(c, p), e = value(d, p);
+      const Gradient g = gradient(c, p), h = gradient(d, p);
+      const double det = g.x * h.y - g.y * h.x;
+      if (det == 0 || !std::isfinite(det)) return std::nullopt;
+      const double dx = -(f * h.y - e * g.y) / det, dy = -(e * g.x - f * h.x) / det;
+      p = {p.x + dx, p.y + dy};
+      if (!(std::fabs(p.x - middle.x) <= reach && std::fabs(p.y - middle.y) <= reach)) return std::nullopt;
+      converged = std::fabs(dx) + std::fabs(dy) <= 0.25 * tolerance;
+    }
+    if (!converged || !(p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y)) return std::nullopt;
+    return p;
+  };
+  if (corner) {
+    // Two curves in a row that bound one patch, and meet elsewhere in the box.
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t j = (i + 1) % n;
+      for (const Point start : {middle, turns_[i].at, turns_[j].at}) {
+        const std::optional<Point> p = solve(condition[i], condition[j], start);
+        if (!p || std::hypot(p->x - corner->x, p->y - corner->y) <= 16 * tolerance) continue;
+        if (shows_at(turns_[i].before, *p) && shows_at(turns_[i].after, *p) && shows_at(turns_[j].after, *p)) return std::nullopt;
+      }
+    }
+    return corner;
+  }
+  // The two conditions whose curves cross at the largest angle; sides of domains before heights.
   std::size_t first = 0, second = 1;
   double best = -1;
   for (std::size_t i = 0; i < n; ++i) {
@@ -159,48 +205,18 @@ std::optional<Point> Cells::star_point(const Box& box) const {
     }
   }
   const Condition &c = condition[first], &d = condition[second];
-  const double reach = 4 * box.larger_side();
-  const double tolerance = envelope_.tolerance();
-  const auto solve = [&](Point p) -> std::optional<Point> {
-    bool converged = false;
-    for (int i = 0; i < 30 && !converged; ++i) {
-      const double f = value(c, p), e = value(d, p);
-      const Gradient g = gradient(c, p), h = gradient(d, p);
-      const double det = g.x * h.y - g.y * h.x;
-      if (det == 0 || !std::isfinite(det)) return std::nullopt;
-      const double dx = -(f * h.y - e * g.y) / det, dy = -(e * g.x - f * h.x) / det;
-      p = {p.x + dx, p.y + dy};
-      if (!(std::fabs(p.x - middle.x) <= reach && std::fabs(p.y - middle.y) <= reach)) return std::nullopt;
-      converged = std::fabs(dx) + std::fabs(dy) <= 0.25 * tolerance;
+  const std::optional<Point> p = solve(c, d, middle);
+  if (!p || !all_reach(*p)) return std::nullopt;
+  for (const Condition& k : std::span(condition.data(), n)) {
+    double scale = 1;
+    if (k.bound != nullptr && k.bound->type == Bound::Type::disc) scale = 2 * radius;
+    if (k.bound != nullptr && k.bound->type == Bound::Type::cone) scale += std::fabs(k.bound->c);
+    if (k.bound == nullptr) {
+      const Gradient g = gradient(k, *p);
+      scale += std::hypot(g.x, g.y);
     }
-    if (!converged || !(p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y)) return std::nullopt;
-    if (!all_reach(p)) return std::nullopt;
-    for (std::size_t i = 0; i < n; ++i) {
-      const Condition& k = condition[i];
-      double scale = 1;
-      if (k.bound != nullptr && k.bound->type == Bound::Type::disc) scale = 2 * radius;
-      if (k.bound != nullptr && k.bound->type == Bound::Type::cone) scale += std::fabs(k.bound->c);
-      if (k.bound == nullptr) {
-        const Gradient g = gradient(k, p);
-        scale += std::hypot(g.x, g.y);
-      }
-      if (!(std::fabs(value(k, p)) <= tolerance * scale)) return std::nullopt;
-    }
-    return p;
-  };
-  if (corner) {
-    const auto is_elsewhere = [&](Point start) {
-      const std::optional<Point> p = solve(start);
-      return p && std::hypot(p->x - corner->x, p->y - corner->y) > 16 * tolerance;
-    };
-    if (is_elsewhere(middle)) return std::nullopt;
-    for (const Turn& t : turns_) {
-      if (is_elsewhere(t.at)) return std::nullopt;
-    }
-    return corner;
+    if (!(std::fabs(value(k, *p)) <= tolerance * scale)) return std::nullopt;
   }
-  const std::optional<Point> p = solve(middle);
-  if (!p) return std::nullopt;
   // One vertex only: two sides of domains are enough, for heights the map must be one to one.
   if (c.bound == nullptr || d.bound == nullptr) {
     const auto range = [&](const Condition& k) {
