@@ -50,29 +50,35 @@ Index Envelope::winner(Point p, std::span<const Index> candidates) const {
   return best;
 }
 
-Range Envelope::bound_range(const Bound& b, const Box& box) const {
-  const Point mid = box.middle();
-  const double hx = box.half_x(), hy = box.half_y();
-  const double dx = mid.x - b.at.x, dy = mid.y - b.at.y;
-  const double slack = 1e-15 * (std::fabs(dx) + std::fabs(dy) + hx + hy);
+struct Envelope::BoxFrame {
+  explicit BoxFrame(const Box& b) : box(b), mid(b.middle()), hx(b.half_x()), hy(b.half_y()) {}
+  const Box& box;
+  Point mid;
+  double hx, hy;
+};
+
+inline Range Envelope::bound_range(const Bound& b, const BoxFrame& f) const {
+  const double dx = f.mid.x - b.at.x, dy = f.mid.y - b.at.y;
+  const double slack = 1e-15 * (std::fabs(dx) + std::fabs(dy) + f.hx + f.hy);
   if (b.type == Bound::Type::line) {
-    const double value = dx * b.nx + dy * b.ny - b.c, spread = std::fabs(b.nx) * hx + std::fabs(b.ny) * hy + slack;
+    const double value = dx * b.nx + dy * b.ny - b.c, spread = std::fabs(b.nx) * f.hx + std::fabs(b.ny) * f.hy + slack;
     return {value - spread, value + spread};
   }
-  const double near_x = std::max(0.0, std::fabs(dx) - hx), near_y = std::max(0.0, std::fabs(dy) - hy);
-  const double far_x = std::fabs(dx) + hx, far_y = std::fabs(dy) + hy;
+  const double near_x = std::max(0.0, std::fabs(dx) - f.hx), near_y = std::max(0.0, std::fabs(dy) - f.hy);
+  const double far_x = std::fabs(dx) + f.hx, far_y = std::fabs(dy) + f.hy;
   const double square = patches_.square_radius();
   const double near = near_x * near_x + near_y * near_y, far = far_x * far_x + far_y * far_y;
   if (b.type == Bound::Type::disc) return {near - square - 2 * slack * far_x, far - square + 2 * slack * (far_x + far_y)};
-  const double value = dx * b.nx + dy * b.ny, spread = std::fabs(b.nx) * hx + std::fabs(b.ny) * hy + slack;
+  const double value = dx * b.nx + dy * b.ny, spread = std::fabs(b.nx) * f.hx + std::fabs(b.ny) * f.hy + slack;
   const Range up{std::sqrt(std::max(0.0, square - far)), std::sqrt(std::max(0.0, square - near))};
   const Range lift = b.c >= 0 ? Range{b.c * up.low, b.c * up.high} : Range{b.c * up.high, b.c * up.low};
   return {value - spread + lift.low, value + spread + lift.high};
 }
 
-bool Envelope::domain_meets(Index i, const Box& box) const {
-  const Patch& f = patches_[i];
-  if (box.high.x < f.low.x || box.low.x > f.high.x || box.high.y < f.low.y || box.low.y > f.high.y) return false;
+Range Envelope::bound_range(const Bound& b, const Box& box) const { return bound_range(b, BoxFrame(box)); }
+
+/// Of a patch whose bounding rectangle meets the box.
+inline bool Envelope::domain_meets(Index i, const BoxFrame& box) const {
   for (const Bound& b : patches_.bounds(i)) {
     const Range r = bound_range(b, box);
     // Where a patch ends in a wall, what reaches into the box by less than matters is left out: two walls can be tangent.
@@ -83,7 +89,7 @@ bool Envelope::domain_meets(Index i, const Box& box) const {
 }
 
 /// Where a tangent plane bounds the patch well over a box of the given size: in its middle, but not closer to the rim than that.
-Point Envelope::support_point(Index i, Point mid, double size) const {
+inline Point Envelope::support_point(Index i, Point mid, double size) const {
   const Patch& f = patches_[i];
   if (f.kind == FeatureKind::face) return mid;
   const double radius = patches_.radius(), most = radius - std::min(size, radius / 2);
@@ -100,7 +106,16 @@ Point Envelope::support_point(Index i, Point mid, double size) const {
   return {mid.x - shift * f.gy, mid.y + shift * f.gx};
 }
 
-bool Envelope::domain_covers(Index i, const Box& box) const {
+/// The tangent plane at the support point, as its height in the middle and its slope.
+inline Envelope::Tangent Envelope::tangent(Index i, Point mid, double size) const {
+  const Patch& f = patches_[i];
+  if (f.kind == FeatureKind::face) return {f.z + (f.gx * (mid.x - f.at.x) + f.gy * (mid.y - f.at.y)), {f.gx, f.gy}};
+  const Point p = support_point(i, mid, size);
+  const Gradient g = patches_.gradient(i, p);
+  return {patches_.extended_height(i, p) + g.x * (mid.x - p.x) + g.y * (mid.y - p.y), g};
+}
+
+bool Envelope::domain_covers(Index i, const BoxFrame& box) const {
   for (const Bound& b : patches_.bounds(i)) {
     const Range r = bound_range(b, box);
     if (b.negative ? r.high >= 0 : r.low < 0) return false;
@@ -109,7 +124,7 @@ bool Envelope::domain_covers(Index i, const Box& box) const {
 }
 
 /// The one wall at which the patch ends within the box, if it covers the box otherwise: there it is at least as high as its rim.
-const Bound* Envelope::wall_through(Index i, const Box& box) const {
+const Bound* Envelope::wall_through(Index i, const BoxFrame& box) const {
   const Bound* wall = nullptr;
   for (const Bound& b : patches_.bounds(i)) {
     const Range r = bound_range(b, box);
@@ -121,7 +136,7 @@ const Bound* Envelope::wall_through(Index i, const Box& box) const {
 }
 
 const Bound* Envelope::wall_above(Index upper, Index lower, const Box& box) const {
-  const Bound* wall = wall_through(upper, box);
+  const Bound* wall = wall_through(upper, BoxFrame(box));
   if (wall == nullptr) return nullptr;
   const Point mid = box.middle(), p = support_point(lower, mid, box.larger_side());
   const Gradient g = patches_.gradient(lower, p);
@@ -164,23 +179,23 @@ bool Envelope::ends_before(Index i, const Bound& wall, const Box& box) const {
 
 /// Two edges above each other or in one line, as seen from above: the difference of their heights is linear in the place along
 /// them and in the root that both share, so its least value is at an end.
-bool Envelope::hidden_in_line(Index lower, Index upper, const Box& box) const {
+bool Envelope::hidden_in_line(Index lower, Index upper, const BoxFrame& frame) const {
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (c.kind != FeatureKind::edge || k.kind != FeatureKind::edge) return false;
   if (std::fabs(c.gx * k.gy - c.gy * k.gx) > 1e-13) return false;
   const auto aside = [](const Patch& f, Point p) { return (p.y - f.at.y) * f.gx - (p.x - f.at.x) * f.gy; };
   const double turn = c.gx * k.gx + c.gy * k.gy > 0 ? 1 : -1;
-  const Point mid = box.middle();
-  const double beta = aside(k, mid);
-  if (std::fabs(beta - turn * aside(c, mid)) > tolerance_ / 4) return false;
+  const double beta = aside(k, frame.mid);
+  if (std::fabs(beta - turn * aside(c, frame.mid)) > tolerance_ / 4) return false;
   const std::span<const Bound> sides = patches_.bounds(upper);
   for (const Bound& b : sides) {
-    const Range r = bound_range(b, box);
+    const Range r = bound_range(b, frame);
     if (b.type == Bound::Type::cone && (b.negative ? r.high >= 0 : r.low < 0)) return false;
   }
-  const double spread = std::fabs(k.gx) * box.half_y() + std::fabs(k.gy) * box.half_x(), square = patches_.square_radius();
+  const double spread = std::fabs(k.gx) * frame.hy + std::fabs(k.gy) * frame.hx, square = patches_.square_radius();
   const double near = std::max(0.0, std::fabs(beta) - spread), far = std::fabs(beta) + spread;
   const double up[2] = {std::sqrt(std::max(0.0, square - far * far)), std::sqrt(std::max(0.0, square - near * near))};
+  const Box& box = frame.box;
   for (const Point p : {box.low, Point{box.high.x, box.low.y}, box.high, Point{box.low.x, box.high.y}}) {
     const double level = rim_height(upper, p) - rim_height(lower, p);
     for (const double u : up) {
@@ -192,16 +207,16 @@ bool Envelope::hidden_in_line(Index lower, Index upper, const Box& box) const {
 
 /// True if nothing that the ball touches with the lower patch rises above the upper one's plane: then the lower patch does not rise
 /// above the plane moved by R, however tangent to it.
-bool Envelope::hidden_below_face(Index lower, Index upper, const Box& box) const {
+bool Envelope::hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const {
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (k.kind != FeatureKind::face || c.kind == FeatureKind::face) return false;
-  const double steep = std::sqrt(1 + k.gx * k.gx + k.gy * k.gy), slack = noise_ * steep;
+  const double plane = k.z - patches_.radius() * k.q, slack = noise_ * k.q;  // the plane through the triangle
   const auto above = [&](double x, double y, double z) {
-    return z - (k.z + k.gx * (x - k.at.x) + k.gy * (y - k.at.y) - patches_.radius() * steep) > slack;
+    return z - (plane + k.gx * (x - k.at.x) + k.gy * (y - k.at.y)) > slack;
   };
   if (above(c.at.x, c.at.y, c.z)) return false;
   if (c.kind == FeatureKind::edge && above(c.at.x + c.length * c.gx, c.at.y + c.length * c.gy, c.z + c.m * c.length)) return false;
-  return domain_covers(upper, box);
+  return domain_covers(upper, frame);
 }
 
 /// True if two straight walls run along each other in the box, each with its patch on its own side and no gap between.
@@ -215,35 +230,54 @@ bool Envelope::back_to_back(const Bound& a, const Bound& b, const Box& box) cons
 
 void Envelope::filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
                       std::vector<Index>& out) const {
-  const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
-  const int step = box.low.x == box.high.x || box.low.y == box.high.y ? 2 : 1;  // a line has two ends
-  const Point mid = box.middle();
-  std::array<std::array<double, 4>, 4> body;
-  std::array<double, 4> least;       // of a body's heights
-  std::array<const Bound*, 4> wall;  // where the body ends within the box; null: it does not
-  int bodies = 0;
+  const BoxFrame frame(box);
   // Where the box is large beside R nothing is hidden below one body.
   const bool small = box.larger_side() < 2 * patches_.radius();
-  if (small) {
-    for (const Index c : champions) {
+  const std::size_t begin = out.size();
+  const auto is_champion = [&](Index c) { return std::find(champions.begin(), champions.end(), c) != champions.end(); };
+  bool others = false;
+  for (const Index c : candidates) {
+    if (!patches_.box(c).meets(box)) continue;
+    // A champion is seen at a corner: only a wall can keep it from mattering.
+    const bool champion = is_champion(c);
+    if (champion ? patches_[c].has_rim && !domain_meets(c, frame) : !domain_meets(c, frame)) continue;
+    others = others || !champion;
+    out.push_back(c);
+  }
+  if (!small || !others) return;
+
+  const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+  const int step = box.low.x == box.high.x || box.low.y == box.high.y ? 2 : 1;  // a line has two ends
+  const Point mid = frame.mid;
+  const double size = box.larger_side();
+  double body[4][4];
+  double least[4];       // of a body's heights
+  const Bound* wall[4];  // where the body ends within the box; null: it does not
+  int bodies = 0;
+  for (const Index c : champions) {
+    bool all = true;
+    for (int i = 0; i < 4 && all; i += step) {
+      body[bodies][i] = patches_.body_height(c, corner[i]);
+      all = body[bodies][i] > below_everything;
+    }
+    wall[bodies] = nullptr;
+    if (all) {
       // A patch over all of the box may hide what sticks out by less than matters. One that is not might be hidden itself, as
       // part of another's body, by what it would hide: then only what is clearly lower.
-      const double margin = domain_covers(c, box) ? noise_ : -noise_;
-      bool all = true;
-      for (int i = 0; i < 4; i += step) {
-        body[bodies][i] = patches_.body_height(c, corner[i]) + margin;
-        all = all && body[bodies][i] > below_everything;
-      }
-      wall[bodies] = nullptr;
-      if (!all && (wall[bodies] = wall_through(c, box)) != nullptr) {
-        for (int i = 0; i < 4; i += step) body[bodies][i] = rim_height(c, corner[i]) - noise_;
-        all = true;
-      }
-      if (!all) continue;
-      least[bodies] = body[bodies][0];
-      for (int i = step; i < 4; i += step) least[bodies] = std::min(least[bodies], body[bodies][i]);
-      ++bodies;
+      const double margin = domain_covers(c, frame) ? noise_ : -noise_;
+      for (int i = 0; i < 4; i += step) body[bodies][i] += margin;
+    } else {
+      if ((wall[bodies] = wall_through(c, frame)) == nullptr) continue;
+      for (int i = 0; i < 4; i += step) body[bodies][i] = rim_height(c, corner[i]) - noise_;
     }
+    double(&b)[4] = body[bodies];
+    if (step == 2) {  // the other two corners are the same places
+      const bool vertical = box.low.x == box.high.x;
+      b[1] = b[vertical ? 0 : 2];
+      b[3] = b[vertical ? 2 : 0];
+    }
+    least[bodies] = std::min(std::min(b[0], b[1]), std::min(b[2], b[3]));
+    ++bodies;
   }
   // A concave height is least at a corner; faces that are nearly vertical have a top, but no tangent plane worth having.
   const auto below_least = [&](Index c) {
@@ -252,11 +286,12 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
     }
     return false;
   };
+  const auto is_below = [](const double (&t)[4], const double (&b)[4]) {
+    return (b[0] > t[0]) & (b[1] > t[1]) & (b[2] > t[2]) & (b[3] > t[3]);
+  };
   const auto below_one = [&](const double (&t)[4], Index c) {
     for (int k = 0; k < bodies; ++k) {
-      bool all = wall[k] == nullptr || ends_before(c, *wall[k], box);
-      for (int i = 0; i < 4; i += step) all = all && body[k][i] > t[i];
-      if (all) return true;
+      if (is_below(t, body[k]) && (wall[k] == nullptr || ends_before(c, *wall[k], box))) return true;
     }
     return false;
   };
@@ -282,28 +317,28 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
     for (int k = 0; k < bodies; ++k) {
       for (int l = k + 1; l < bodies; ++l) {
         if (wall[k] == nullptr || wall[l] == nullptr || !back_to_back(*wall[k], *wall[l], box)) continue;
-        bool all = true;
-        for (int i = 0; i < 4; i += step) all = all && body[k][i] > t[i] && body[l][i] > t[i];
-        if (all) return true;
+        if (is_below(t, body[k]) && is_below(t, body[l])) return true;
       }
     }
     return false;
   };
-  for (const Index c : candidates) {
-    if (!domain_meets(c, box)) continue;
-    if (small && std::find(champions.begin(), champions.end(), c) == champions.end()) {
-      if (below_least(c)) continue;
-      const Point p = support_point(c, mid, box.larger_side());
-      const Gradient g = patches_.gradient(c, p);
-      const double h = patches_.extended_height(c, p) + g.x * (mid.x - p.x) + g.y * (mid.y - p.y);
-      const double hx = g.x * box.half_x(), hy = g.y * box.half_y();
-      const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
-      bool in_line = false;
-      for (const Index k : champions) in_line = in_line || hidden_in_line(c, k, box) || hidden_below_face(c, k, box);
-      if (in_line || below_one(t, c) || below_two(t) || below_walls(t)) continue;
+  const auto is_hidden = [&](Index c) {
+    if (below_least(c)) return true;
+    const Tangent p = tangent(c, mid, size);
+    const double hx = p.slope.x * frame.hx, hy = p.slope.y * frame.hy;
+    const double t[4] = {p.height - hx - hy, p.height + hx - hy, p.height + hx + hy, p.height - hx + hy};
+    if (below_one(t, c) || below_two(t) || below_walls(t)) return true;
+    for (const Index k : champions) {
+      if (hidden_in_line(c, k, frame) || hidden_below_face(c, k, frame)) return true;
     }
-    out.push_back(c);
+    return false;
+  };
+  std::size_t kept = begin;
+  for (std::size_t i = begin; i < out.size(); ++i) {
+    const Index c = out[i];
+    if (is_champion(c) || !is_hidden(c)) out[kept++] = c;
   }
+  out.resize(kept);
 }
 
 void Envelope::section(bool vertical, double at, double from, double to, Index start, Index end,
@@ -343,15 +378,19 @@ void Envelope::section(const Line& line, double t0, Index l0, double t1, Index l
   for (const Index l : ends) {
     if (l != none && (count == 0 || champions[0] != l)) champions[count++] = l;
   }
-  {
+  const auto has_others = [&](std::size_t from) {
+    return std::any_of(stack_.begin() + std::ptrdiff_t(from), stack_.end(), [&](Index c) { return c != l0 && c != l1; });
+  };
+  bool others = has_others(first);
+  if (others) {
     // filter() appends to the vector it reads from.
-    thread_local std::vector<Index> kept;
-    kept.clear();
-    filter(line.box(t0, t1), {champions.data(), std::size_t(count)}, {stack_.data() + first, begin - first}, kept);
-    stack_.insert(stack_.end(), kept.begin(), kept.end());
+    kept_.clear();
+    filter(line.box(t0, t1), {champions.data(), std::size_t(count)}, {stack_.data() + first, begin - first}, kept_);
+    stack_.insert(stack_.end(), kept_.begin(), kept_.end());
+    others = has_others(begin);
+  } else {
+    stack_.insert(stack_.end(), stack_.begin() + std::ptrdiff_t(first), stack_.begin() + std::ptrdiff_t(begin));
   }
-  bool others = false;
-  for (std::size_t i = begin; i < stack_.size(); ++i) others = others || (stack_[i] != l0 && stack_[i] != l1);
   const bool tiny = t1 - t0 <= smallest_stretch_ || depth > 60;
   if (l0 == l1 && (tiny || (!others && l0 != none))) {
     // One label only: its domain may have a notch, but then another label would be left.
@@ -476,7 +515,7 @@ double Envelope::locate(const Line& line, double t0, Index l0, double t1, Index 
   for (int i = 0, side = 0; i < 80; ++i) {
     double m = a - fa * (b - a) / (fb - fa);
     if (!(m > a && m < b) || i % 16 == 15) m = a + (b - a) / 2;
-    if (m == a || m == b || std::fabs(m - last) <= 0x1p-52 * std::fabs(m)) break;
+    if (m == a || m == b || std::fabs(m - last) <= smallest_stretch_) break;
     last = m;
     const double fm = value(m);
     if (fm == 0) break;

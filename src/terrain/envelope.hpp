@@ -8,15 +8,6 @@
 
 namespace krepl::terrain {
 
-/// An axis-parallel rectangle; of no width or height where it is a stretch of a line.
-struct Box {
-  Point low, high;
-  Point middle() const { return {(low.x + high.x) / 2, (low.y + high.y) / 2}; }
-  double half_x() const { return (high.x - low.x) / 2; }
-  double half_y() const { return (high.y - low.y) / 2; }
-  double larger_side() const { return std::max(high.x - low.x, high.y - low.y); }
-};
-
 struct Range {
   double low, high;
   bool excludes_zero() const { return low > 0 || high < 0; }
@@ -85,25 +76,32 @@ class Envelope {
 
  private:
   struct Line;
+  struct BoxFrame;
+  struct Tangent {
+    double height;
+    Gradient slope;
+  };
   void section(const Line& line, double t0, Index l0, double t1, Index l1, std::size_t first, int depth);
   void drop_slivers(const Line& line, Index start, std::size_t first, std::vector<Crossing>& crossings) const;
   bool gap(const Line& line, double t0, Index l0, double t1, Index l1) const;
   bool single_crossing(const Line& line, double t0, Index l0, double t1, Index l1) const;
   double locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& meeting) const;
   Point support_point(Index patch, Point mid, double size) const;
-  const Bound* wall_through(Index patch, const Box& box) const;
+  Tangent tangent(Index patch, Point mid, double size) const;
+  Range bound_range(const Bound& bound, const BoxFrame& box) const;
+  const Bound* wall_through(Index patch, const BoxFrame& box) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
-  bool hidden_in_line(Index lower, Index upper, const Box& box) const;
-  bool hidden_below_face(Index lower, Index upper, const Box& box) const;
+  bool hidden_in_line(Index lower, Index upper, const BoxFrame& frame) const;
+  bool hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const;
   bool back_to_back(const Bound& a, const Bound& b, const Box& box) const;
-  bool domain_covers(Index patch, const Box& box) const;
-  bool domain_meets(Index patch, const Box& box) const;
+  bool domain_covers(Index patch, const BoxFrame& box) const;
+  bool domain_meets(Index patch, const BoxFrame& box) const;
   GradientRange sphere_gradient(Point at, const Box& box, double factor) const;
 
   const PatchSet& patches_;
   double tolerance_, smallest_cell_, smallest_stretch_, noise_, rim_width_;
   SurfaceCounters& counters_;
-  std::vector<Index> stack_;
+  std::vector<Index> stack_, kept_;
   std::vector<Crossing>* out_ = nullptr;
 };
 
