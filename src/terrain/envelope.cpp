@@ -477,45 +477,17 @@ Meeting Envelope::meeting(Index a, Index b, Point p) const {
   return std::fabs(difference) <= 64 * tolerance_ * (1 + std::hypot(g.x - h.x, g.y - h.y)) ? Meeting::valley : Meeting::rim;
 }
 
-/// The place of the one change from l0 to l1, by bisection on the function that changes its sign there, faster by the secant.
-double Envelope::locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& how) const {
-  const Bound* seam = l0 != none && l1 != none ? patches_.seam(l0, l1) : nullptr;
-  const bool heights = seam == nullptr && l0 != none && l1 != none;
-  const auto value = [&](double t) {  // positive on the side of l0
-    const Point p = line.point(t);
-    if (seam != nullptr) return (seam->negative ? -1 : 1) * seam->value(p, patches_.square_radius());
-    return patches_.extended_height(l0, p) - patches_.extended_height(l1, p);
-  };
-  const Index two[2] = {l0, l1};
-  const std::span<const Index> both(two + (l0 == none), (l0 != none) + (l1 != none));
-  double a = t0, b = t1;
-  bool smooth = seam != nullptr;
-  if (heights) {
-    const Point p = line.point(a), q = line.point(b);
-    smooth = patches_.contains(l0, q) && patches_.contains(l1, p);
-  }
-  double fa = 0, fb = 0;
-  if (smooth) {
-    fa = value(a);
-    fb = value(b);
-    smooth = std::isfinite(fa) && std::isfinite(fb) && ((fa > 0) != (fb > 0));
-  }
-  if (!smooth) {  // a domain ends in between: ask who is higher
-    for (int i = 0; i < 60 && b - a > 0; ++i) {
-      const double m = a + (b - a) / 2;
-      if (m == a || m == b) break;
-      (winner(line.point(m), both) == l0 ? a : b) = m;
-    }
-    how = meeting(l0, l1, line.point((a + b) / 2));
-    return a + (b - a) / 2;
-  }
-  how = seam != nullptr ? Meeting::seam : Meeting::valley;
-  // Illinois: the secant, halving the value of the end that stays so that both ends move.
+/// Where a function with values of different sign at a and b is zero, by the secant.
+template <class Function>
+double Envelope::root(const Function& value, double a, double fa, double b, double fb) const {
+  // Illinois: halving the value of the end that stays so that both ends move.
   double last = (a + b) / 2;
   for (int i = 0, side = 0; i < 80; ++i) {
     double m = a - fa * (b - a) / (fb - fa);
-    if (!(m > a && m < b) || i % 16 == 15) m = a + (b - a) / 2;
-    if (m == a || m == b || std::fabs(m - last) <= smallest_stretch_) break;
+    if (!(m > a)) return a;  // but for rounding it lies between
+    if (!(m < b)) return b;
+    if (i % 16 == 15) m = a + (b - a) / 2;
+    if (std::fabs(m - last) <= smallest_stretch_) break;
     last = m;
     const double fm = value(m);
     if (fm == 0) break;
@@ -532,6 +504,42 @@ double Envelope::locate(const Line& line, double t0, Index l0, double t1, Index 
     }
   }
   return last;
+}
+
+/// The place of the one change from l0 to l1: where the function that they share is zero or the heights are equal, else by bisection.
+double Envelope::locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& how) const {
+  const Bound* seam = l0 != none && l1 != none ? patches_.seam(l0, l1) : nullptr;
+  const bool heights = seam == nullptr && l0 != none && l1 != none;
+  const auto value = [&](double t) {  // positive on the side of l0
+    const Point p = line.point(t);
+    if (seam != nullptr) return (seam->negative ? -1 : 1) * seam->value(p, patches_.square_radius());
+    return patches_.extended_height(l0, p) - patches_.extended_height(l1, p);
+  };
+  const Index two[2] = {l0, l1};
+  const std::span<const Index> both(two + (l0 == none), (l0 != none) + (l1 != none));
+  double a = t0, b = t1, fa = 0, fb = 0;
+  bool smooth = seam != nullptr || heights;
+  if (smooth) {
+    fa = value(a);
+    fb = value(b);
+    smooth = std::isfinite(fa) && std::isfinite(fb) && ((fa > 0) != (fb > 0));
+  }
+  if (smooth) {
+    const double t = root(value, a, fa, b, fb);
+    const Point p = line.point(t);
+    // The domains of both reach as far as where the heights are equal, or one of them ends before.
+    if (seam != nullptr || (patches_.contains(l0, p) && patches_.contains(l1, p))) {
+      how = seam != nullptr ? Meeting::seam : Meeting::valley;
+      return t;
+    }
+  }
+  for (int i = 0; i < 60 && b - a > smallest_stretch_; ++i) {
+    const double m = a + (b - a) / 2;
+    if (m == a || m == b) break;
+    (winner(line.point(m), both) == l0 ? a : b) = m;
+  }
+  how = meeting(l0, l1, line.point((a + b) / 2));
+  return a + (b - a) / 2;
 }
 
 GradientRange Envelope::sphere_gradient(Point at, const Box& box, double factor) const {

@@ -86,6 +86,8 @@ class Envelope {
   bool gap(const Line& line, double t0, Index l0, double t1, Index l1) const;
   bool single_crossing(const Line& line, double t0, Index l0, double t1, Index l1) const;
   double locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& meeting) const;
+  template <class Function>
+  double root(const Function& value, double a, double fa, double b, double fb) const;
   Point support_point(Index patch, Point mid, double size) const;
   Tangent tangent(Index patch, Point mid, double size) const;
   Range bound_range(const Bound& bound, const BoxFrame& box) const;
