@@ -5,10 +5,12 @@
 namespace krepl::terrain {
 namespace {
 
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
 double distance(Point p, Point a, Point b) {
   const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
   const double t = square > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0, 1.0) : 0.0;
-  return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+  return length(p.x - a.x - t * dx, p.y - a.y - t * dy);
 }
 
 /// Of two segments whose ends lie on the border of a box, not crossing each other.
@@ -135,6 +137,7 @@ Cells::Cut Cells::cut(const Box& box, std::span<const Index> candidates) {
       corner_place_[1].push_back(p.y);
     }
   }
+  add_likely_vertices(box);
   if (corner_place_[0].size() < 2) return best;
   // The widest gap, but none that makes long thin cells.
   double widest = std::max(width, height) / 32;
@@ -149,6 +152,30 @@ Cells::Cut Cells::cut(const Box& box, std::span<const Index> candidates) {
     for (std::size_t i = 1; i < t.size(); ++i) consider(t[i] - t[i - 1], t[i - 1] + uneven * (t[i] - t[i - 1]));
   }
   return best;
+}
+
+/// Where seams meet the one valley through the cell, as if that were straight.
+void Cells::add_likely_vertices(const Box& box) {
+  const Turn* valley[2] = {nullptr, nullptr};
+  int count = 0;
+  for (const Turn& t : turns_) {
+    if (t.meeting != Meeting::valley) continue;
+    if (count == 2) return;
+    valley[count++] = &t;
+  }
+  if (count < 2) return;
+  const PatchSet& patches = envelope_.patches();
+  const Point p = valley[0]->at, q = valley[1]->at;
+  for (const Turn& t : turns_) {
+    const Bound* seam = t.meeting == Meeting::seam ? patches.seam(t.before, t.after) : nullptr;
+    if (seam == nullptr) continue;
+    const double a = seam->value(p, patches.square_radius()), b = seam->value(q, patches.square_radius());
+    if ((a < 0) == (b < 0)) continue;
+    const Point v{p.x + a / (a - b) * (q.x - p.x), p.y + a / (a - b) * (q.y - p.y)};
+    if (!(v.x > box.low.x && v.x < box.high.x && v.y > box.low.y && v.y < box.high.y)) continue;
+    corner_place_[0].push_back(v.x);
+    corner_place_[1].push_back(v.y);
+  }
 }
 
 bool Cells::split(const Cell& cell, std::size_t first, int depth) {
@@ -192,13 +219,29 @@ bool Cells::split(const Cell& cell, std::size_t first, int depth) {
   return subdivide(below, first, depth + 1) && subdivide(above, first, depth + 1);
 }
 
+/// True if a patch that shows nowhere around the cell stays below the patches that do.
+bool Cells::is_hidden(Index patch, const Cell& cell) const {
+  std::array<Index, 4> labels;
+  std::size_t count = 0;
+  const auto add = [&](Index l) {
+    if (l != none && count < labels.size() && std::find(labels.begin(), labels.begin() + count, l) == labels.begin() + count) {
+      labels[count++] = l;
+    }
+  };
+  if (turns_.empty()) add(cell.side[0].label);
+  for (const Turn& t : turns_) add(t.after);
+  // Four or more labels, each seen once, hardly ever meet in one vertex: the cell is going to be cut anyway.
+  if (count == turns_.size() ? count > 3 : turns_.size() > 4) return false;
+  return envelope_.stays_hidden(patch, cell.box, {labels.data(), count}, 5);
+}
+
 bool Cells::settle(const Cell& cell, std::span<const Index> candidates, bool smallest) {
   walk(cell);
   if (!smallest) {
     for (const Index c : candidates) {
       bool seen = turns_.empty() && cell.side[0].label == c;
       for (const Turn& t : turns_) seen = seen || t.after == c;
-      if (!seen && !is_sliver(c, cell.box)) return false;
+      if (!seen && !is_hidden(c, cell) && !is_sliver(c, cell.box)) return false;
     }
   }
   const std::size_t n = turns_.size();

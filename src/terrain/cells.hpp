@@ -93,6 +93,7 @@ class Cells {
 
   bool subdivide(const Cell& cell, std::size_t first, int depth);
   Cut cut(const Box& box, std::span<const Index> candidates);
+  void add_likely_vertices(const Box& box);
   bool split(const Cell& cell, std::size_t first, int depth);
   void walk(const Cell& cell);
   bool settle(const Cell& cell, std::span<const Index> candidates, bool smallest);
@@ -109,6 +110,7 @@ class Cells {
   bool share_corner(Index a, Index b, Point p) const;
   bool curve_is_simple(const Turn& turn, const Box& box) const;
   bool sides_of_one_patch(const Turn& s, const Turn& t, Index& patch) const;
+  bool is_hidden(Index patch, const Cell& cell) const;
   bool is_sliver(Index patch, const Box& box) const;
   bool corner_in(Index patch, const Box& box) const;
   double bend(const Turn& turn, Point end, const Box& box) const;

@@ -228,6 +228,140 @@ bool Envelope::back_to_back(const Bound& a, const Bound& b, const Box& box) cons
   return s * a.value(m, 0) + t * b.value(m, 0) + spread <= tolerance_ / 4;
 }
 
+/// The bodies of a few labels over a box, evaluated at its corners as far as needed. A concave height is least at a corner, less a
+/// plane too.
+class Envelope::Cover {
+ public:
+  Cover(const Envelope& envelope, const BoxFrame& frame, std::span<const Index> labels)
+      : envelope_(envelope), frame_(frame), bodies_(labels.size()) {
+    const Box& box = frame.box;
+    corner_[0] = box.low;
+    corner_[1] = {box.high.x, box.low.y};
+    corner_[2] = box.high;
+    corner_[3] = {box.low.x, box.high.y};
+    if (box.low.x == box.high.x || box.low.y == box.high.y) step_ = 2;
+    for (std::size_t k = 0; k < bodies_; ++k) body_[k].label = labels[k];
+  }
+
+  /// True if the patch, which lies below the given plane, is nowhere seen.
+  bool hides(Index c, const Tangent& plane) {
+    const double hx = plane.slope.x * frame_.hx, hy = plane.slope.y * frame_.hy, h = plane.height;
+    const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
+    const int highest = hx + hy > 0 ? (step_ == 1 && hy < 0 ? 1 : step_ == 1 && hx < 0 ? 3 : 2) : (step_ == 1 && hx > 0 ? 1 : 0);
+    if (hides(c, t, highest)) return true;
+    // Faces that are nearly vertical have a top, but no tangent plane worth having.
+    const double top = envelope_.patches_[c].top;
+    if (!(top < t[highest])) return false;
+    const double level[4] = {top, top, top, top};
+    return below_one(c, masks(level, highest));
+  }
+
+ private:
+  static constexpr std::size_t most = 4;
+  using Masks = std::array<unsigned, most>;  // per body: at which corners it is higher
+  struct Body {
+    Index label;
+    const Bound* wall = nullptr;  // where the body ends within the box
+    double height[4];             // with a wall: of its rim
+    unsigned known = 0;
+    bool ends = false;
+    enum class Covers : std::uint8_t { unknown, no, yes } covers = Covers::unknown;
+  };
+
+  unsigned all_corners() const { return step_ == 1 ? 15 : 5; }
+
+  bool is_above(Body& b, int i, double t) {
+    if ((b.known >> i & 1) == 0) {
+      b.height[i] = envelope_.patches_.body_height(b.label, corner_[i]);
+      b.known |= 1u << i;
+      if (!(b.height[i] > below_everything)) end_at_wall(b);
+    }
+    if (b.height[i] - envelope_.noise_ > t) return true;
+    if (b.ends || !(b.height[i] + envelope_.noise_ > t)) return false;
+    // A patch over all of the box may hide what sticks out by less than matters. One that is not might be hidden itself, as
+    // part of another's body, by what it would hide: then only what is clearly lower.
+    if (b.covers == Body::Covers::unknown) {
+      b.covers = envelope_.domain_covers(b.label, frame_) ? Body::Covers::yes : Body::Covers::no;
+    }
+    return b.covers == Body::Covers::yes;
+  }
+
+  void end_at_wall(Body& b) {
+    b.wall = envelope_.wall_through(b.label, frame_);
+    b.ends = true;
+    b.known = 15;
+    for (int i = 0; i < 4; ++i) b.height[i] = b.wall != nullptr ? envelope_.rim_height(b.label, corner_[i]) : below_everything;
+  }
+
+  /// Without any bit if no body is higher at some corner.
+  Masks masks(const double (&t)[4], int first) {
+    Masks m{};
+    for (int n = 0; n < 4; n += step_) {
+      const int i = (first + n) & 3;
+      bool any = false;
+      for (std::size_t k = 0; k < bodies_; ++k) {
+        Body& b = body_[k];
+        const bool ended = b.ends;
+        if (is_above(b, i, t[i])) m[k] |= 1u << i;
+        if (b.ends != ended) {
+          for (int before = 0; before < n; before += step_) {
+            const int j = (first + before) & 3;
+            m[k] &= ~(1u << j);
+            if (is_above(b, j, t[j])) m[k] |= 1u << j;
+          }
+        }
+        any = any || (m[k] >> i & 1) != 0;
+      }
+      if (!any) return {};
+    }
+    return m;
+  }
+
+  bool below_one(Index c, const Masks& m) const {
+    for (std::size_t k = 0; k < bodies_; ++k) {
+      if (m[k] != all_corners()) continue;
+      if (body_[k].wall == nullptr || envelope_.ends_before(c, *body_[k].wall, frame_.box)) return true;
+    }
+    return false;
+  }
+
+  bool hides(Index c, const double (&t)[4], int highest) {
+    const Masks m = masks(t, highest);
+    if (below_one(c, m)) return true;
+    for (std::size_t k = 0; k < bodies_; ++k) {
+      for (std::size_t l = k + 1; l < bodies_; ++l) {
+        if ((m[k] | m[l]) != all_corners()) continue;
+        const Body &a = body_[k], &b = body_[l];
+        if (!a.ends && !b.ends && below_mean(a, b, t)) return true;
+        // Two walls back to back: one of the bodies is there at every place.
+        if (m[k] == m[l] && a.wall != nullptr && b.wall != nullptr && envelope_.back_to_back(*a.wall, *b.wall, frame_.box)) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Below a weighted mean of two bodies, which is concave too and not above the higher one.
+  bool below_mean(const Body& a, const Body& b, const double (&t)[4]) const {
+    double low = 0, high = 1;
+    for (int i = 0; i < 4; i += step_) {
+      const double slope = a.height[i] - b.height[i], need = t[i] + envelope_.noise_ - b.height[i];
+      if (slope > 0) low = std::max(low, need / slope);
+      else if (slope < 0) high = std::min(high, need / slope);
+      else if (need >= 0) return false;
+    }
+    return low < high;
+  }
+
+  const Envelope& envelope_;
+  const BoxFrame& frame_;
+  std::size_t bodies_;
+  int step_ = 1;  // a line has two ends
+  Point corner_[4];
+  Body body_[most];
+};
+
 void Envelope::filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
                       std::vector<Index>& out) const {
   const BoxFrame frame(box);
@@ -246,88 +380,10 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
   }
   if (!small || !others) return;
 
-  const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
-  const int step = box.low.x == box.high.x || box.low.y == box.high.y ? 2 : 1;  // a line has two ends
-  const Point mid = frame.mid;
+  Cover cover(*this, frame, champions);
   const double size = box.larger_side();
-  double body[4][4];
-  double least[4];       // of a body's heights
-  const Bound* wall[4];  // where the body ends within the box; null: it does not
-  int bodies = 0;
-  for (const Index c : champions) {
-    bool all = true;
-    for (int i = 0; i < 4 && all; i += step) {
-      body[bodies][i] = patches_.body_height(c, corner[i]);
-      all = body[bodies][i] > below_everything;
-    }
-    wall[bodies] = nullptr;
-    if (all) {
-      // A patch over all of the box may hide what sticks out by less than matters. One that is not might be hidden itself, as
-      // part of another's body, by what it would hide: then only what is clearly lower.
-      const double margin = domain_covers(c, frame) ? noise_ : -noise_;
-      for (int i = 0; i < 4; i += step) body[bodies][i] += margin;
-    } else {
-      if ((wall[bodies] = wall_through(c, frame)) == nullptr) continue;
-      for (int i = 0; i < 4; i += step) body[bodies][i] = rim_height(c, corner[i]) - noise_;
-    }
-    double(&b)[4] = body[bodies];
-    if (step == 2) {  // the other two corners are the same places
-      const bool vertical = box.low.x == box.high.x;
-      b[1] = b[vertical ? 0 : 2];
-      b[3] = b[vertical ? 2 : 0];
-    }
-    least[bodies] = std::min(std::min(b[0], b[1]), std::min(b[2], b[3]));
-    ++bodies;
-  }
-  // A concave height is least at a corner; faces that are nearly vertical have a top, but no tangent plane worth having.
-  const auto below_least = [&](Index c) {
-    for (int k = 0; k < bodies; ++k) {
-      if (patches_[c].top < least[k] && (wall[k] == nullptr || ends_before(c, *wall[k], box))) return true;
-    }
-    return false;
-  };
-  const auto is_below = [](const double (&t)[4], const double (&b)[4]) {
-    return (b[0] > t[0]) & (b[1] > t[1]) & (b[2] > t[2]) & (b[3] > t[3]);
-  };
-  const auto below_one = [&](const double (&t)[4], Index c) {
-    for (int k = 0; k < bodies; ++k) {
-      if (is_below(t, body[k]) && (wall[k] == nullptr || ends_before(c, *wall[k], box))) return true;
-    }
-    return false;
-  };
-  // Below a weighted mean of two bodies, which is concave too and not above the higher one.
-  const auto below_two = [&](const double (&t)[4]) {
-    for (int k = 0; k < bodies; ++k) {
-      for (int l = k + 1; l < bodies; ++l) {
-        if (wall[k] != nullptr || wall[l] != nullptr) continue;
-        double low = 0, high = 1;
-        for (int i = 0; i < 4; i += step) {
-          const double slope = body[k][i] - body[l][i], need = t[i] - body[l][i];
-          if (slope > 0) low = std::max(low, need / slope);
-          else if (slope < 0) high = std::min(high, need / slope);
-          else if (need >= 0) high = -1;
-        }
-        if (low < high) return true;
-      }
-    }
-    return false;
-  };
-  // Two walls back to back: one of the bodies is there at every place.
-  const auto below_walls = [&](const double (&t)[4]) {
-    for (int k = 0; k < bodies; ++k) {
-      for (int l = k + 1; l < bodies; ++l) {
-        if (wall[k] == nullptr || wall[l] == nullptr || !back_to_back(*wall[k], *wall[l], box)) continue;
-        if (is_below(t, body[k]) && is_below(t, body[l])) return true;
-      }
-    }
-    return false;
-  };
   const auto is_hidden = [&](Index c) {
-    if (below_least(c)) return true;
-    const Tangent p = tangent(c, mid, size);
-    const double hx = p.slope.x * frame.hx, hy = p.slope.y * frame.hy;
-    const double t[4] = {p.height - hx - hy, p.height + hx - hy, p.height + hx + hy, p.height - hx + hy};
-    if (below_one(t, c) || below_two(t) || below_walls(t)) return true;
+    if (cover.hides(c, tangent(c, frame.mid, size))) return true;
     for (const Index k : champions) {
       if (hidden_in_line(c, k, frame) || hidden_below_face(c, k, frame)) return true;
     }
@@ -339,6 +395,22 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
     if (is_champion(c) || !is_hidden(c)) out[kept++] = c;
   }
   out.resize(kept);
+}
+
+bool Envelope::stays_hidden(Index c, const Box& box, std::span<const Index> labels, int depth) const {
+  const Box& own = patches_.box(c);
+  const Box part{{std::max(box.low.x, own.low.x), std::max(box.low.y, own.low.y)},
+                 {std::min(box.high.x, own.high.x), std::min(box.high.y, own.high.y)}};
+  if (!(part.low.x <= part.high.x && part.low.y <= part.high.y)) return true;
+  const BoxFrame frame(part);
+  if (!domain_meets(c, frame)) return true;
+  Cover cover(*this, frame, labels);
+  if (cover.hides(c, tangent(c, frame.mid, part.larger_side()))) return true;
+  if (depth == 0) return false;
+  Box first = part, second = part;
+  if (frame.hx > frame.hy) first.high.x = second.low.x = frame.mid.x;
+  else first.high.y = second.low.y = frame.mid.y;
+  return stays_hidden(c, first, labels, depth - 1) && stays_hidden(c, second, labels, depth - 1);
 }
 
 void Envelope::section(bool vertical, double at, double from, double to, Index start, Index end,

@@ -49,6 +49,10 @@ class Envelope {
   void filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
               std::vector<Index>& out) const;
 
+  /// True if the patch is certainly not seen in the box: each part of it, halved up to `depth` times, lies outside the domain or below
+  /// the body of one of the labels.
+  bool stays_hidden(Index patch, const Box& box, std::span<const Index> labels, int depth) const;
+
   /// Labels along an axis-parallel line: appends crossings with t ascending to `out`. `start` and `end` are the labels at
   /// the two ends, where t is x or y.
   void section(bool vertical, double at, double from, double to, Index start, Index end, std::span<const Index> candidates,
@@ -77,6 +81,7 @@ class Envelope {
  private:
   struct Line;
   struct BoxFrame;
+  class Cover;
   struct Tangent {
     double height;
     Gradient slope;

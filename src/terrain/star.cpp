@@ -13,6 +13,8 @@ struct Condition {
   bool at_rim;  // b's height where it ends in a wall
 };
 
+double size(Gradient g) { return std::sqrt(g.x * g.x + g.y * g.y); }
+
 }  // namespace
 
 /// The side of a domain that a seam or rim runs along; at a rim that at which the upper patch ends.
@@ -26,7 +28,7 @@ const Bound* Cells::side_along(const Turn& t) const {
     for (const Bound& b : patches.bounds(l)) {
       if (b.partner != none) continue;
       const Gradient g = envelope_.bound_gradient(b, t.at);
-      const double distance = std::fabs(b.value(t.at, patches.square_radius())) / std::hypot(g.x, g.y);
+      const double distance = std::fabs(b.value(t.at, patches.square_radius())) / size(g);
       if (distance < least) least = distance, nearest = &b;
     }
   }
@@ -54,7 +56,7 @@ bool Cells::all_reach(Point p) const {
     if (t.after == none || has_corner(t.after, p)) continue;
     for (const Bound& b : patches.bounds(t.after)) {
       const Gradient g = envelope_.bound_gradient(b, p);
-      const double value = b.value(p, patches.square_radius()), slack = 4 * envelope_.tolerance() * (1 + std::hypot(g.x, g.y));
+      const double value = b.value(p, patches.square_radius()), slack = 4 * envelope_.tolerance() * (1 + size(g));
       if (b.negative ? value > slack : value < -slack) return false;
     }
   }
@@ -129,7 +131,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
       }
       if (share_corner(turns_[k].before, turns_[k].after, *corner)) continue;
       const Gradient g = gradient(c, *corner);
-      if (!(std::fabs(value(c, *corner)) <= 4 * envelope_.tolerance() * (1 + std::hypot(g.x, g.y)))) return std::nullopt;
+      if (!(std::fabs(value(c, *corner)) <= 4 * envelope_.tolerance() * (1 + size(g)))) return std::nullopt;
     }
     return corner;
   }
@@ -142,7 +144,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
     const Gradient g = gradient(condition[i], p);
     for (std::size_t j = i + 1; j < n; ++j) {
       const Gradient h = gradient(condition[j], p);
-      const double sizes = std::hypot(g.x, g.y) * std::hypot(h.x, h.y);
+      const double sizes = size(g) * size(h);
       double sine = sizes > 0 ? std::fabs(g.x * h.y - g.y * h.x) / sizes : 0;
       const int sides = (condition[i].bound != nullptr) + (condition[j].bound != nullptr);
       if (sine > 1e-6) sine += sides;
@@ -174,7 +176,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
     if (condition[i].bound != nullptr && condition[i].bound->type == Bound::Type::cone) scale += std::fabs(condition[i].bound->c);
     if (condition[i].bound == nullptr) {
       const Gradient g = gradient(condition[i], p);
-      scale += std::hypot(g.x, g.y);
+      scale += size(g);
     }
     if (!(residual <= tolerance * scale)) return std::nullopt;
   }
