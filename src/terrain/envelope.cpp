@@ -57,33 +57,40 @@ struct Envelope::BoxFrame {
   double hx, hy;
 };
 
-inline Range Envelope::bound_range(const Bound& b, const BoxFrame& f) const {
+/// The least value of a bound's function over a box (sign = 1), or the greatest one with its sign changed (sign = -1); a bit less
+/// for rounding.
+template <int sign>
+inline double Envelope::extreme(const Bound& b, const BoxFrame& f) const {
   const double dx = f.mid.x - b.at.x, dy = f.mid.y - b.at.y;
   const double slack = 1e-15 * (std::fabs(dx) + std::fabs(dy) + f.hx + f.hy);
   if (b.type == Bound::Type::line) {
-    const double value = dx * b.nx + dy * b.ny - b.c, spread = std::fabs(b.nx) * f.hx + std::fabs(b.ny) * f.hy + slack;
-    return {value - spread, value + spread};
+    return sign * (dx * b.nx + dy * b.ny - b.c) - (std::fabs(b.nx) * f.hx + std::fabs(b.ny) * f.hy + slack);
   }
+  const double square = patches_.square_radius();
   const double near_x = std::max(0.0, std::fabs(dx) - f.hx), near_y = std::max(0.0, std::fabs(dy) - f.hy);
   const double far_x = std::fabs(dx) + f.hx, far_y = std::fabs(dy) + f.hy;
-  const double square = patches_.square_radius();
   const double near = near_x * near_x + near_y * near_y, far = far_x * far_x + far_y * far_y;
-  if (b.type == Bound::Type::disc) return {near - square - 2 * slack * far_x, far - square + 2 * slack * (far_x + far_y)};
-  const double value = dx * b.nx + dy * b.ny, spread = std::fabs(b.nx) * f.hx + std::fabs(b.ny) * f.hy + slack;
-  const Range up{std::sqrt(std::max(0.0, square - far)), std::sqrt(std::max(0.0, square - near))};
-  const Range lift = b.c >= 0 ? Range{b.c * up.low, b.c * up.high} : Range{b.c * up.high, b.c * up.low};
-  return {value - spread + lift.low, value + spread + lift.high};
+  if (b.type == Bound::Type::disc) return sign > 0 ? near - square - 2 * slack * far_x : square - far - 2 * slack * (far_x + far_y);
+  const double lift = sign * b.c, up = std::sqrt(std::max(0.0, square - (lift >= 0 ? far : near)));
+  return sign * (dx * b.nx + dy * b.ny) - (std::fabs(b.nx) * f.hx + std::fabs(b.ny) * f.hy + slack) + lift * up;
 }
 
-Range Envelope::bound_range(const Bound& b, const Box& box) const { return bound_range(b, BoxFrame(box)); }
+/// True if the patch's side of the bound is all of the box.
+inline bool Envelope::is_within(const Bound& b, const BoxFrame& f) const {
+  return b.negative ? extreme<-1>(b, f) > 0 : extreme<1>(b, f) >= 0;
+}
+
+Range Envelope::bound_range(const Bound& b, const Box& box) const {
+  const BoxFrame frame(box);
+  return {extreme<1>(b, frame), -extreme<-1>(b, frame)};
+}
 
 /// Of a patch whose bounding rectangle meets the box.
 inline bool Envelope::domain_meets(Index i, const BoxFrame& box) const {
   for (const Bound& b : patches_.bounds(i)) {
-    const Range r = bound_range(b, box);
     // Where a patch ends in a wall, what reaches into the box by less than matters is left out: two walls can be tangent.
     const double slack = !b.rim ? 0 : b.type == Bound::Type::disc ? 2 * patches_.radius() * tolerance_ : tolerance_;
-    if (b.negative ? r.low >= -slack : r.high < slack) return false;
+    if (b.negative ? extreme<1>(b, box) >= -slack : extreme<-1>(b, box) > -slack) return false;
   }
   return true;
 }
@@ -117,8 +124,7 @@ inline Envelope::Tangent Envelope::tangent(Index i, Point mid, double size) cons
 
 bool Envelope::domain_covers(Index i, const BoxFrame& box) const {
   for (const Bound& b : patches_.bounds(i)) {
-    const Range r = bound_range(b, box);
-    if (b.negative ? r.high >= 0 : r.low < 0) return false;
+    if (!is_within(b, box)) return false;
   }
   return true;
 }
@@ -127,8 +133,7 @@ bool Envelope::domain_covers(Index i, const BoxFrame& box) const {
 const Bound* Envelope::wall_through(Index i, const BoxFrame& box) const {
   const Bound* wall = nullptr;
   for (const Bound& b : patches_.bounds(i)) {
-    const Range r = bound_range(b, box);
-    if (!(b.negative ? r.high >= 0 : r.low < 0)) continue;
+    if (is_within(b, box)) continue;
     if (!b.rim || wall != nullptr) return nullptr;
     wall = &b;
   }
@@ -189,8 +194,7 @@ bool Envelope::hidden_in_line(Index lower, Index upper, const BoxFrame& frame) c
   if (std::fabs(beta - turn * aside(c, frame.mid)) > tolerance_ / 4) return false;
   const std::span<const Bound> sides = patches_.bounds(upper);
   for (const Bound& b : sides) {
-    const Range r = bound_range(b, frame);
-    if (b.type == Bound::Type::cone && (b.negative ? r.high >= 0 : r.low < 0)) return false;
+    if (b.type == Bound::Type::cone && !is_within(b, frame)) return false;
   }
   const double spread = std::fabs(k.gx) * frame.hy + std::fabs(k.gy) * frame.hx, square = patches_.square_radius();
   const double near = std::max(0.0, std::fabs(beta) - spread), far = std::fabs(beta) + spread;
@@ -368,14 +372,18 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
   // Where the box is large beside R nothing is hidden below one body.
   const bool small = box.larger_side() < 2 * patches_.radius();
   const std::size_t begin = out.size();
-  const auto is_champion = [&](Index c) { return std::find(champions.begin(), champions.end(), c) != champions.end(); };
+  Index champion[4] = {none, none, none, none};
+  std::copy(champions.begin(), champions.end(), champion);
+  const auto is_champion = [&](Index c) {  // without branches, which nothing predicts
+    return bool((c == champion[0]) | (c == champion[1]) | (c == champion[2]) | (c == champion[3]));
+  };
   bool others = false;
   for (const Index c : candidates) {
     if (!patches_.box(c).meets(box)) continue;
     // A champion is seen at a corner: only a wall can keep it from mattering.
-    const bool champion = is_champion(c);
-    if (champion ? patches_[c].has_rim && !domain_meets(c, frame) : !domain_meets(c, frame)) continue;
-    others = others || !champion;
+    const bool seen = is_champion(c);
+    if ((!seen || patches_[c].has_rim) && !domain_meets(c, frame)) continue;
+    others = others || !seen;
     out.push_back(c);
   }
   if (!small || !others) return;

@@ -95,7 +95,9 @@ class Envelope {
   double root(const Function& value, double a, double fa, double b, double fb) const;
   Point support_point(Index patch, Point mid, double size) const;
   Tangent tangent(Index patch, Point mid, double size) const;
-  Range bound_range(const Bound& bound, const BoxFrame& box) const;
+  template <int sign>
+  double extreme(const Bound& bound, const BoxFrame& box) const;
+  bool is_within(const Bound& bound, const BoxFrame& box) const;
   const Bound* wall_through(Index patch, const BoxFrame& box) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
   bool hidden_in_line(Index lower, Index upper, const BoxFrame& frame) const;
