@@ -57,8 +57,8 @@ struct Envelope::BoxFrame {
   double hx, hy;
 };
 
-/// The least value of a bound's function over a box (sign = 1), or the greatest one with its sign changed (sign = -1); a bit less
-/// for rounding.
+/// The least value of a bound's function over a box (sign = 1), or the greatest one with its sign changed (sign = -1), a bit
+/// less for rounding.
 template <int sign>
 inline double Envelope::extreme(const Bound& b, const BoxFrame& f) const {
   const double dx = f.mid.x - b.at.x, dy = f.mid.y - b.at.y;
@@ -70,7 +70,7 @@ inline double Envelope::extreme(const Bound& b, const BoxFrame& f) const {
   const double near_x = std::max(0.0, std::fabs(dx) - f.hx), near_y = std::max(0.0, std::fabs(dy) - f.hy);
   const double far_x = std::fabs(dx) + f.hx, far_y = std::fabs(dy) + f.hy;
   const double near = near_x * near_x + near_y * near_y, far = far_x * far_x + far_y * far_y;
-  if (b.type == Bound::Type::disc) return sign > 0 ? near - square - 2 * slack * far_x : square - far - 2 * slack * (far_x + far_y);
+  if (b.type == Bound::Type::disc) return (sign > 0 ? near - square : square - far) - 2 * slack * (far_x + far_y);
   const double lift = sign * b.c, up = std::sqrt(std::max(0.0, square - (lift >= 0 ? far : near)));
   return sign * (dx * b.nx + dy * b.ny) - (std::fabs(b.nx) * f.hx + std::fabs(b.ny) * f.hy + slack) + lift * up;
 }
@@ -232,8 +232,8 @@ bool Envelope::back_to_back(const Bound& a, const Bound& b, const Box& box) cons
   return s * a.value(m, 0) + t * b.value(m, 0) + spread <= tolerance_ / 4;
 }
 
-/// The bodies of a few labels over a box, evaluated at its corners as far as needed. A concave height is least at a corner, less a
-/// plane too.
+/// The bodies of a few labels over a box, evaluated at its corners as far as needed: a concave height is least at a corner, less
+/// a plane too.
 class Envelope::Cover {
  public:
   Cover(const Envelope& envelope, const BoxFrame& frame, std::span<const Index> labels)
@@ -251,7 +251,7 @@ class Envelope::Cover {
   bool hides(Index c, const Tangent& plane) {
     const double hx = plane.slope.x * frame_.hx, hy = plane.slope.y * frame_.hy, h = plane.height;
     const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
-    const int highest = hx + hy > 0 ? (step_ == 1 && hy < 0 ? 1 : step_ == 1 && hx < 0 ? 3 : 2) : (step_ == 1 && hx > 0 ? 1 : 0);
+    const int highest = step_ == 2 ? (hx + hy > 0 ? 2 : 0) : hy > 0 ? (hx > 0 ? 2 : 3) : (hx > 0 ? 1 : 0);
     if (hides(c, t, highest)) return true;
     // Faces that are nearly vertical have a top, but no tangent plane worth having.
     const double top = envelope_.patches_[c].top;
@@ -586,7 +586,8 @@ double Envelope::root(const Function& value, double a, double fa, double b, doub
   return last;
 }
 
-/// The place of the one change from l0 to l1: where the function that they share is zero or the heights are equal, else by bisection.
+/// The place of the one change from l0 to l1: where the function that they share is zero, or the heights are equal, else by
+/// bisection.
 double Envelope::locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& how) const {
   const Bound* seam = l0 != none && l1 != none ? patches_.seam(l0, l1) : nullptr;
   const bool heights = seam == nullptr && l0 != none && l1 != none;

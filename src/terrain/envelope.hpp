@@ -49,8 +49,8 @@ class Envelope {
   void filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
               std::vector<Index>& out) const;
 
-  /// True if the patch is certainly not seen in the box: each part of it, halved up to `depth` times, lies outside the domain or below
-  /// the body of one of the labels.
+  /// True if the patch is certainly not seen in the box: each part of it, halved up to `depth` times, lies outside the domain or
+  /// below the bodies of the labels, at most four.
   bool stays_hidden(Index patch, const Box& box, std::span<const Index> labels, int depth) const;
 
   /// Labels along an axis-parallel line: appends crossings with t ascending to `out`. `start` and `end` are the labels at
