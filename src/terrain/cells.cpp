@@ -5,10 +5,12 @@
 namespace krepl::terrain {
 namespace {
 
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
 double distance(Point p, Point a, Point b) {
   const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
   const double t = square > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0, 1.0) : 0.0;
-  return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+  return length(p.x - a.x - t * dx, p.y - a.y - t * dy);
 }
 
 /// Of two segments whose ends lie on the border of a box, not crossing each other.
@@ -135,6 +137,7 @@ Cells::Cut Cells::cut(const Box& box, std::span<const Index> candidates) {
       corner_place_[1].push_back(p.y);
     }
   }
+  add_likely_vertices(box);
   if (corner_place_[0].size() < 2) return best;
   // The widest gap, but none that makes long thin cells.
   double widest = std::max(width, height) / 32;
@@ -149,6 +152,30 @@ Cells::Cut Cells::cut(const Box& box, std::span<const Index> candidates) {
     for (std::size_t i = 1; i < t.size(); ++i) consider(t[i] - t[i - 1], t[i - 1] + uneven * (t[i] - t[i - 1]));
   }
   return best;
+}
+
+/// Where seams meet the one valley through the cell, as if that were straight.
+void Cells::add_likely_vertices(const Box& box) {
+  const Turn* valley[2] = {nullptr, nullptr};
+  int count = 0;
+  for (const Turn& t : turns_) {
+    if (t.meeting != Meeting::valley) continue;
+    if (count == 2) return;
+    valley[count++] = &t;
+  }
+  if (count < 2) return;
+  const PatchSet& patches = envelope_.patches();
+  const Point p = valley[0]->at, q = valley[1]->at;
+  for (const Turn& t : turns_) {
+    const Bound* seam = t.meeting == Meeting::seam ? patches.seam(t.before, t.after) : nullptr;
+    if (seam == nullptr) continue;
+    const double a = seam->value(p, patches.square_radius()), b = seam->value(q, patches.square_radius());
+    if ((a < 0) == (b < 0)) continue;
+    const Point v{p.x + a / (a - b) * (q.x - p.x), p.y + a / (a - b) * (q.y - p.y)};
+    if (!(v.x > box.low.x && v.x < box.high.x && v.y > box.low.y && v.y < box.high.y)) continue;
+    corner_place_[0].push_back(v.x);
+    corner_place_[1].push_back(v.y);
+  }
 }
 
 bool Cells::split(const Cell& cell, std::size_t first, int depth) {

@@ -93,6 +93,7 @@ class Cells {
 
   bool subdivide(const Cell& cell, std::size_t first, int depth);
   Cut cut(const Box& box, std::span<const Index> candidates);
+  void add_likely_vertices(const Box& box);
   bool split(const Cell& cell, std::size_t first, int depth);
   void walk(const Cell& cell);
   bool settle(const Cell& cell, std::span<const Index> candidates, bool smallest);
@@ -120,6 +121,7 @@ class Cells {
   bool is_thin_bend(Index a, Index b, const Box& box) const;
   bool is_tangent_sliver(Index patch, const Box& box) const;
   bool all_are_prisms(std::span<const Index> candidates, const Box& box) const;
+  bool is_hidden(Index patch, const Box& box) const;
   bool corner_in(Index patch, const Box& box) const;
   double bend(const Turn& turn, Point end, const Box& box) const;
   bool wall_stays_above(const Turn& from, const Turn& to, const Turn& valley) const;

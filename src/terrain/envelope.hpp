@@ -9,15 +9,6 @@
 
 namespace krepl::terrain {
 
-/// An axis-parallel rectangle; of no width or height where it is a stretch of a line.
-struct Box {
-  Point low, high;
-  Point middle() const { return {(low.x + high.x) / 2, (low.y + high.y) / 2}; }
-  double half_x() const { return (high.x - low.x) / 2; }
-  double half_y() const { return (high.y - low.y) / 2; }
-  double larger_side() const { return std::max(high.x - low.x, high.y - low.y); }
-};
-
 struct Range {
   double low, high;
   bool excludes_zero() const { return low > 0 || high < 0; }
@@ -61,6 +52,10 @@ class Envelope {
   void filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
               std::vector<Index>& out) const;
 
+  /// True if the patch is certainly not seen in the box: each part of it, halved up to `depth` times, lies outside the domain or
+  /// below the bodies of the labels, at most four.
+  bool stays_hidden(Index patch, const Box& box, std::span<const Index> labels, int depth) const;
+
   /// True if the patch rises nowhere in the box above the upper ones' bodies by more than the tolerance.
   bool hidden_within_tolerance(Index patch, std::span<const Index> uppers, const Box& box) const;
   /// False if the patch's domain certainly does not reach into the box by more than matters.
@@ -73,8 +68,7 @@ class Envelope {
   void section(bool vertical, double at, double from, double to, Index start, Index end, std::span<const Index> candidates,
                std::vector<Crossing>& out);
 
-  /// `least_up`: of the height over the rim that a cone's value depends on.
-  Range bound_range(const Bound& bound, const Box& box, double least_up = 0) const;
+  Range bound_range(const Bound& bound, const Box& box) const;
   GradientRange bound_gradient_range(const Bound& bound, const Box& box) const;
   GradientRange gradient_range(Index patch, const Box& box) const;
   /// Of the derivative of extended_height along a direction of the plane.
@@ -97,37 +91,47 @@ class Envelope {
 
  private:
   struct Line;
-  void section(const Line& line, double t0, Index l0, double t1, Index l1, std::size_t first, int depth);
-  void drop_slivers(const Line& line, Index start, std::size_t first, std::vector<Crossing>& crossings) const;
-  bool gap(const Line& line, double t0, Index l0, double t1, Index l1) const;
-  bool single_crossing(const Line& line, double t0, Index l0, double t1, Index l1) const;
-  double locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& meeting) const;
+  struct BoxFrame;
+  class Cover;
   /// A linear function: its value in the middle of a box, and its gradient.
   struct Plane {
     double height;
     Gradient gradient;
   };
-  Plane support(Index patch, const Box& box) const;
-  Point support_point(Index patch, Point mid, double size) const;
   /// A wall in which a body ends, and by how much the body may be lower there than the patch's rim_height.
   struct Wall {
     Bound outline;
     double lowered;
   };
-  std::optional<Wall> wall_through(Index patch, const Box& box) const;
+  void section(const Line& line, double t0, Index l0, double t1, Index l1, std::size_t first, int depth);
+  void drop_slivers(const Line& line, Index start, std::size_t first, std::vector<Crossing>& crossings) const;
+  bool gap(const Line& line, double t0, Index l0, double t1, Index l1) const;
+  bool single_crossing(const Line& line, double t0, Index l0, double t1, Index l1) const;
+  double locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& meeting) const;
+  template <class Function>
+  double root(const Function& value, double a, double fa, double b, double fb) const;
+  Point support_point(Index patch, Point mid, double size) const;
+  Plane support(Index patch, const BoxFrame& box) const;
+  Plane support_of_steep(Index patch, const Plane& whole, const BoxFrame& box) const;
+  template <int sign>
+  double extreme(const Bound& bound, const BoxFrame& box, double least_up = 0) const;
+  bool is_within(const Bound& bound, const BoxFrame& box) const;
+  std::optional<Wall> wall_through(Index patch, const BoxFrame& box) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
-  bool lies_in(Index lower, Index upper) const;
   double axis_height(Index edge, Point p) const;
-  bool hidden_beside(Index lower, Index upper, const Box& box) const;
-  bool hidden_below_face(Index lower, Index upper, const Box& box) const;
+  bool lies_in(Index lower, Index upper) const;
+  bool hidden_beside(Index lower, Index upper, const BoxFrame& frame) const;
+  bool hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const;
   bool back_to_back(const Bound& a, const Bound& b, const Box& box) const;
-  bool domain_covers(Index patch, const Box& box) const;
+  bool domain_covers(Index patch, const BoxFrame& box) const;
+  bool domain_meets(Index patch, const BoxFrame& box) const;
+  bool axis_meets(const Patch& edge, const BoxFrame& box) const;
   GradientRange sphere_gradient(Point at, const Box& box, double factor) const;
 
   const PatchSet& patches_;
   double tolerance_, smallest_cell_, smallest_stretch_, noise_, rim_width_, least_up_;
   SurfaceCounters& counters_;
-  std::vector<Index> stack_;
+  std::vector<Index> stack_, kept_;
   std::vector<Crossing>* out_ = nullptr;
 };
 

@@ -85,6 +85,7 @@ void PatchSet::build(const TerrainWindow& window, double radius) {
   radius_ = radius;
   square_radius_ = radius * radius;
   patches_.clear();
+  boxes_.clear();
   bounds_.clear();
   corners_.clear();
   face_edges_.clear();
@@ -103,12 +104,17 @@ void PatchSet::build(const TerrainWindow& window, double radius) {
   patches_.reserve(number + window.vertices().size() / 2);
   bounds_.reserve(4 * patches_.capacity());
   patches_.resize(number);
+  boxes_.resize(number);
   examine_vertices(window);  // adds the vertices' patches
   for (Index f = 0; f < faces_.size(); ++f) {
     if (faces_[f].patch != none) add_face(window, f);
   }
   for (Index e = 0; e < edges_.size(); ++e) {
     if (edges_[e].patch != none) add_edge(window, e);
+  }
+  for (Patch& p : patches_) {
+    const std::span<const Bound> sides{bounds_.data() + p.first_bound, p.bound_count};
+    p.has_rim = std::any_of(sides.begin(), sides.end(), [](const Bound& b) { return b.rim; });
   }
 }
 
@@ -249,10 +255,9 @@ void PatchSet::add_vertex(const TerrainWindow& window, Index v) {
   }
   if (to_horizon) bounds_.push_back({p.at, 0, 0, 0, Bound::Type::disc, true, none, true});
   p.bound_count = Index(bounds_.size()) - p.first_bound;
-  p.low = box.low;
-  p.high = box.high;
   p.top = at.z + radius_;
   patches_.push_back(p);
+  boxes_.push_back({box.low, box.high});
 }
 
 void PatchSet::add_edge(const TerrainWindow& window, Index i) {
@@ -309,8 +314,7 @@ void PatchSet::add_edge(const TerrainWindow& window, Index i) {
       }
     }
   }
-  p.low = box.low;
-  p.high = box.high;
+  boxes_[e.patch] = {box.low, box.high};
   p.top = std::max(e.z, b.z) + radius_ * most_up / e.q;
 }
 
@@ -327,6 +331,7 @@ void PatchSet::add_face(const TerrainWindow& window, Index f) {
   p.z = at(0).z + radius_ * nz;
   p.gx = -nx / nz;
   p.gy = -ny / nz;
+  p.q = std::sqrt(1 + p.gx * p.gx + p.gy * p.gy);
   p.first_bound = Index(bounds_.size());
   p.length = double(face_edges_.size());
   face_edges_.push_back(face.edge);
@@ -353,8 +358,7 @@ void PatchSet::add_face(const TerrainWindow& window, Index f) {
     bounds_.push_back(bound);
   }
   p.bound_count = 3;
-  p.low = box.low;
-  p.high = box.high;
+  boxes_[faces_[f].patch] = {box.low, box.high};
   p.top = std::max({at(0).z, at(1).z, at(2).z}) + radius_ * nz;
 }
 
@@ -364,43 +368,7 @@ double PatchSet::ball_height(Point at, double z, Point p) const {
   return under > 0 ? z + std::sqrt(under) : below_everything;
 }
 
-double PatchSet::extended_height(Index i, Point p) const {
-  const Patch& f = patches_[i];
-  const double dx = p.x - f.at.x, dy = p.y - f.at.y;
-  if (f.kind == FeatureKind::face) return f.z + (f.gx * dx + f.gy * dy);
-  if (f.kind == FeatureKind::vertex) {
-    const double under = square_radius_ - (dx * dx + dy * dy);
-    return under > 0 ? f.z + std::sqrt(under) : below_everything;
-  }
-  const double along = dx * f.gx + dy * f.gy, aside = dy * f.gx - dx * f.gy;
-  const double under = square_radius_ - aside * aside;
-  return under > 0 ? f.z + f.m * along + f.q * std::sqrt(under) : below_everything;
-}
-
-bool PatchSet::contains(Index i, Point p) const {
-  const Patch& f = patches_[i];
-  if (p.x < f.low.x || p.x > f.high.x || p.y < f.low.y || p.y > f.high.y) return false;
-  for (const Bound& b : bounds(i)) {
-    if (!b.contains(p, square_radius_)) return false;
-  }
-  return true;
-}
-
 double PatchSet::height(Index i, Point p) const { return contains(i, p) ? extended_height(i, p) : below_everything; }
-
-Gradient PatchSet::gradient(Index i, Point p) const {
-  const Patch& f = patches_[i];
-  if (f.kind == FeatureKind::face) return {f.gx, f.gy};
-  const double dx = p.x - f.at.x, dy = p.y - f.at.y;
-  const double least = 1e-12 * square_radius_;
-  if (f.kind == FeatureKind::vertex) {
-    const double z = std::sqrt(std::max(least, square_radius_ - (dx * dx + dy * dy)));
-    return {-dx / z, -dy / z};
-  }
-  const double aside = dy * f.gx - dx * f.gy;
-  const double across = -f.q * aside / std::sqrt(std::max(least, square_radius_ - aside * aside));
-  return {f.m * f.gx - across * f.gy, f.m * f.gy + across * f.gx};
-}
 
 double PatchSet::cigar_height(Index edge, Point p) const {
   const EdgeFrame& e = edges_[edge];
@@ -444,13 +412,6 @@ double PatchSet::body_height(Index i, Point p) const {
     highest = std::max(highest, cigar_height(sides[s], p));
   }
   return inside ? f.z + (f.gx * (p.x - f.at.x) + f.gy * (p.y - f.at.y)) : highest;
-}
-
-const Bound* PatchSet::seam(Index i, Index j) const {
-  for (const Bound& b : bounds(i)) {
-    if (b.partner == j) return &b;
-  }
-  return nullptr;
 }
 
 }  // namespace krepl::terrain

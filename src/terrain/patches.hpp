@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -17,6 +19,18 @@ inline constexpr double below_everything = -std::numeric_limits<double>::infinit
 
 struct Gradient {
   double x, y;
+};
+inline double size(Gradient g) { return std::sqrt(g.x * g.x + g.y * g.y); }
+
+/// An axis-parallel rectangle; of no width or height where it is a stretch of a line.
+struct Box {
+  Point low, high;
+  Point middle() const { return {(low.x + high.x) / 2, (low.y + high.y) / 2}; }
+  double half_x() const { return (high.x - low.x) / 2; }
+  double half_y() const { return (high.y - low.y) / 2; }
+  double larger_side() const { return std::max(high.x - low.x, high.y - low.y); }
+  bool contains(Point p) const { return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y; }
+  bool meets(const Box& b) const { return b.high.x >= low.x && b.low.x <= high.x && b.high.y >= low.y && b.low.y <= high.y; }
 };
 
 /// One side of a patch's domain in the plane. Neighbouring patches hold the same numbers with opposite signs, so that exactly one
@@ -50,6 +64,7 @@ struct Bound {
 /// The part of the sum's boundary that one feature can cause.
 struct Patch {
   Terrain::FeatureKind kind;
+  bool has_rim;  ///< one of the bounds is a rim
   Index feature;
   Index first_bound;
   Index bound_count;
@@ -58,10 +73,9 @@ struct Patch {
   Point at;       ///< a point of the plane, the edge's first vertex, or the vertex
   double z;       ///< height there (a face's plane is the one moved by R)
   double gx, gy;  ///< face: gradient; edge: unit direction in the plane
-  double m, q;    ///< edge: rise per unit length in the plane, and sqrt(1 + m^2)
+  double m, q;    ///< edge: rise per unit length in the plane, and sqrt(1 + m^2); face: q is the length of (gx, gy, 1)
   double length;  ///< edge: in the plane
-  Point low, high;  ///< bounding rectangle of the domain
-  double top;       ///< at least its greatest height
+  double top;     ///< at least its greatest height
 };
 
 /// All patches that may appear above a rectangle, and their domains.
@@ -74,6 +88,8 @@ class PatchSet {
   double square_radius() const { return square_radius_; }
   std::size_t size() const { return patches_.size(); }
   const Patch& operator[](Index i) const { return patches_[i]; }
+  /// Bounding rectangle of the domain.
+  const Box& box(Index i) const { return boxes_[i]; }
   std::span<const Bound> bounds(Index i) const { return {bounds_.data() + patches_[i].first_bound, patches_[i].bound_count}; }
 
   /// Where sides of the domain end; two of them meet nowhere else.
@@ -120,6 +136,7 @@ class PatchSet {
 
   double radius_ = 0, square_radius_ = 0;
   std::vector<Patch> patches_;
+  std::vector<Box> boxes_;  // apart from patches_: most patches are told to be elsewhere by their box alone
   std::vector<Bound> bounds_;
   std::vector<Point> corners_;
   std::vector<EdgeFrame> edges_;
@@ -127,5 +144,47 @@ class PatchSet {
   std::vector<Index> vertex_patch_;
   std::vector<std::array<Index, 3>> face_edges_;  // per face patch, as bodies need them
 };
+
+inline double PatchSet::extended_height(Index i, Point p) const {
+  const Patch& f = patches_[i];
+  const double dx = p.x - f.at.x, dy = p.y - f.at.y;
+  if (f.kind == Terrain::FeatureKind::face) return f.z + (f.gx * dx + f.gy * dy);
+  if (f.kind == Terrain::FeatureKind::vertex) {
+    const double under = square_radius_ - (dx * dx + dy * dy);
+    return under > 0 ? f.z + std::sqrt(under) : below_everything;
+  }
+  const double along = dx * f.gx + dy * f.gy, aside = dy * f.gx - dx * f.gy;
+  const double under = square_radius_ - aside * aside;
+  return under > 0 ? f.z + f.m * along + f.q * std::sqrt(under) : below_everything;
+}
+
+inline bool PatchSet::contains(Index i, Point p) const {
+  if (!boxes_[i].contains(p)) return false;
+  for (const Bound& b : bounds(i)) {
+    if (!b.contains(p, square_radius_)) return false;
+  }
+  return true;
+}
+
+inline Gradient PatchSet::gradient(Index i, Point p) const {
+  const Patch& f = patches_[i];
+  if (f.kind == Terrain::FeatureKind::face) return {f.gx, f.gy};
+  const double dx = p.x - f.at.x, dy = p.y - f.at.y;
+  const double least = 1e-12 * square_radius_;
+  if (f.kind == Terrain::FeatureKind::vertex) {
+    const double z = std::sqrt(std::max(least, square_radius_ - (dx * dx + dy * dy)));
+    return {-dx / z, -dy / z};
+  }
+  const double aside = dy * f.gx - dx * f.gy;
+  const double across = -f.q * aside / std::sqrt(std::max(least, square_radius_ - aside * aside));
+  return {f.m * f.gx - across * f.gy, f.m * f.gy + across * f.gx};
+}
+
+inline const Bound* PatchSet::seam(Index i, Index j) const {
+  for (const Bound& b : bounds(i)) {
+    if (b.partner == j) return &b;
+  }
+  return nullptr;
+}
 
 }  // namespace krepl::terrain

@@ -16,11 +16,18 @@ bool Cells::shows_all(const Cell& cell, std::span<const Index> candidates) {
   }
   std::optional<bool> prisms;
   for (const Index c : candidates) {
-    if (is_seen(c) || is_thin(c, none, none, cell.box, envelope_.tolerance()) || is_tangent_sliver(c, cell.box) || envelope_.hidden_within_tolerance(c, seen_, cell.box)) continue;
+    if (is_seen(c) || is_hidden(c, cell.box) || is_thin(c, none, none, cell.box, envelope_.tolerance()) || is_tangent_sliver(c, cell.box) || envelope_.hidden_within_tolerance(c, seen_, cell.box)) continue;
     if (!prisms) prisms = all_are_prisms(candidates, cell.box);
     if (!*prisms) return false;
   }
   return true;
+}
+
+/// True if a patch that shows nowhere around the cell stays below the patches that do.
+bool Cells::is_hidden(Index patch, const Box& box) const {
+  // Four or more labels, each seen once, hardly ever meet in one vertex: the cell is going to be cut anyway.
+  if (seen_.size() == turns_.size() ? seen_.size() > 3 : turns_.size() > 4) return false;
+  return envelope_.stays_hidden(patch, box, seen_, 5);
 }
 
 bool Cells::is_seen(Index label) const { return std::find(seen_.begin(), seen_.end(), label) != seen_.end(); }

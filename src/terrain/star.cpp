@@ -27,7 +27,7 @@ const Bound* Cells::side_along(const Turn& t) const {
     if (!is_wall_of(t, l)) continue;
     for (const Bound& b : patches.bounds(l)) {
       const Gradient g = envelope_.bound_gradient(b, t.at);
-      const double distance = std::fabs(b.value(t.at, patches.square_radius())) / std::hypot(g.x, g.y) + (b.partner != none ? far : 0);
+      const double distance = std::fabs(b.value(t.at, patches.square_radius())) / size(g) + (b.partner != none ? far : 0);
       if (distance < least) least = distance, nearest = &b;
     }
   }
@@ -58,7 +58,7 @@ bool Cells::reaches(Index patch, Point p) const {
   const PatchSet& patches = envelope_.patches();
   for (const Bound& b : patches.bounds(patch)) {
     const Gradient g = envelope_.bound_gradient(b, p);
-    const double value = b.value(p, patches.square_radius()), slack = 4 * envelope_.tolerance() * (1 + std::hypot(g.x, g.y));
+    const double value = b.value(p, patches.square_radius()), slack = 4 * envelope_.tolerance() * (1 + size(g));
     if (b.negative ? value > slack : value < -slack) return false;
   }
   return true;
@@ -144,7 +144,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
     }
     if (share_corner(turns_[k].before, turns_[k].after, corner)) return true;
     const Gradient g = gradient(c, corner);
-    return std::fabs(value(c, corner)) <= 4 * envelope_.tolerance() * (1 + std::hypot(g.x, g.y));
+    return std::fabs(value(c, corner)) <= 4 * envelope_.tolerance() * (1 + size(g));
   };
   const std::optional<Point> corner = common_corner(box);
   if (corner) {
@@ -197,7 +197,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
     const Gradient g = gradient(condition[i], middle);
     for (std::size_t j = i + 1; j < n; ++j) {
       const Gradient h = gradient(condition[j], middle);
-      const double sizes = std::hypot(g.x, g.y) * std::hypot(h.x, h.y);
+      const double sizes = size(g) * size(h);
       double sine = sizes > 0 ? std::fabs(g.x * h.y - g.y * h.x) / sizes : 0;
       const int sides = (condition[i].bound != nullptr) + (condition[j].bound != nullptr);
       if (sine > 1e-6) sine += sides;
@@ -213,7 +213,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
     if (k.bound != nullptr && k.bound->type == Bound::Type::cone) scale += std::fabs(k.bound->c);
     if (k.bound == nullptr) {
       const Gradient g = gradient(k, *p);
-      scale += std::hypot(g.x, g.y);
+      scale += size(g);
     }
     if (!(std::fabs(value(k, *p)) <= tolerance * scale)) return std::nullopt;
   }

@@ -9,7 +9,7 @@ namespace {
 /// Triangles in a tile, about: enough to make the margin of width R around it cheap, few enough for the cache.
 constexpr double triangles_a_tile = 4096;
 
-double distance(Point3 p, Point3 q) { return std::hypot(p.x - q.x, p.y - q.y); }
+double distance(Point3 p, Point3 q) { return std::sqrt((p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y)); }
 
 /// Follows the links of a subdivided tile from cell to cell and writes chains.
 class ChainWriter {

@@ -1,0 +1,516 @@
+#include <algorithm>
+
+#include "terrain/envelope.hpp"
+
+// Which patches cannot show in a box: outside of their domains, or hidden below the bodies of others.
+namespace krepl::terrain {
+
+using FeatureKind = Terrain::FeatureKind;
+
+struct Envelope::BoxFrame {
+  explicit BoxFrame(const Box& b) : box(b), mid(b.middle()), hx(b.half_x()), hy(b.half_y()) {}
+  const Box& box;
+  Point mid;
+  double hx, hy;
+};
+
+/// The least value of a bound's function over a box (sign = 1), or the greatest one with its sign changed (sign = -1), a bit
+/// less for rounding. `least_up`: of the height over the rim that a cone's value depends on.
+template <int sign>
+inline double Envelope::extreme(const Bound& b, const BoxFrame& f, double least_up) const {
+  const double dx = f.mid.x - b.at.x, dy = f.mid.y - b.at.y;
+  const double slack = 1e-15 * (std::fabs(dx) + std::fabs(dy) + f.hx + f.hy);
+  if (b.type == Bound::Type::line) {
+    return sign * (dx * b.nx + dy * b.ny - b.c) - (std::fabs(b.nx) * f.hx + std::fabs(b.ny) * f.hy + slack);
+  }
+  const double square = patches_.square_radius();
+  const double near_x = std::max(0.0, std::fabs(dx) - f.hx), near_y = std::max(0.0, std::fabs(dy) - f.hy);
+  const double far_x = std::fabs(dx) + f.hx, far_y = std::fabs(dy) + f.hy;
+  const double near = near_x * near_x + near_y * near_y, far = far_x * far_x + far_y * far_y;
+  if (b.type == Bound::Type::disc) return (sign > 0 ? near - square : square - far) - 2 * slack * (far_x + far_y);
+  const double lift = sign * b.c, up = std::max(least_up, std::sqrt(std::max(0.0, square - (lift >= 0 ? far : near))));
+  return sign * (dx * b.nx + dy * b.ny) - (std::fabs(b.nx) * f.hx + std::fabs(b.ny) * f.hy + slack) + lift * up;
+}
+
+/// True if the patch's side of the bound is all of the box.
+inline bool Envelope::is_within(const Bound& b, const BoxFrame& f) const {
+  return b.negative ? extreme<-1>(b, f) > 0 : extreme<1>(b, f) >= 0;
+}
+
+Range Envelope::bound_range(const Bound& b, const Box& box) const {
+  const BoxFrame frame(box);
+  return {extreme<1>(b, frame), -extreme<-1>(b, frame)};
+}
+
+/// Of a patch whose bounding rectangle meets the box.
+///
+/// Where a patch ends in a wall, what reaches into the box by less than matters is left out: two walls can be tangent, and a seam is
+/// tangent to the wall that it ends in.
+inline bool Envelope::domain_meets(Index i, const BoxFrame& box) const {
+  const Patch& f = patches_[i];
+  const double least_up = f.has_rim && f.kind == FeatureKind::vertex ? least_up_ : 0;
+  for (const Bound& b : patches_.bounds(i)) {
+    const double slack = !b.rim ? 0 : b.type == Bound::Type::disc ? 2 * patches_.radius() * tolerance_ : tolerance_;
+    if (b.negative ? extreme<1>(b, box, least_up) >= -slack : extreme<-1>(b, box, least_up) > -slack) return false;
+  }
+  return f.kind != FeatureKind::edge || !f.has_rim || axis_meets(f, box);
+}
+
+/// True if the axis of an edge has places that a ball in the box may touch: the same for its ends.
+bool Envelope::axis_meets(const Patch& f, const BoxFrame& box) const {
+  const double dx = box.mid.x - f.at.x, dy = box.mid.y - f.at.y;
+  const double along = dx * f.gx + dy * f.gy, aside = std::fabs(dy * f.gx - dx * f.gy);
+  const double along_spread = std::fabs(f.gx) * box.hx + std::fabs(f.gy) * box.hy + noise_;
+  const double aside_spread = std::fabs(f.gy) * box.hx + std::fabs(f.gx) * box.hy;
+  const auto up = [&](double b) { return std::max(least_up_, std::sqrt(std::max(0.0, patches_.square_radius() - b * b))); };
+  const double low_up = up(aside + aside_spread), high_up = up(std::max(0.0, aside - aside_spread));
+  const double shift = f.m / f.q;
+  return along + along_spread + shift * (shift > 0 ? high_up : low_up) >= 0 &&
+         along - along_spread + shift * (shift > 0 ? low_up : high_up) <= f.length;
+}
+
+bool Envelope::domain_meets(Index i, const Box& box) const { return patches_.box(i).meets(box) && domain_meets(i, BoxFrame(box)); }
+
+bool Envelope::covers(const Bound& b, const Box& box) const { return is_within(b, BoxFrame(box)); }
+
+/// Where a tangent plane bounds the patch well over a box of the given size: in its middle, but not closer to the rim than that.
+inline Point Envelope::support_point(Index i, Point mid, double size) const {
+  const Patch& f = patches_[i];
+  if (f.kind == FeatureKind::face) return mid;
+  const double radius = patches_.radius(), most = radius - std::min(size, radius / 2);
+  const double dx = mid.x - f.at.x, dy = mid.y - f.at.y;
+  if (f.kind == FeatureKind::vertex) {
+    const double square = dx * dx + dy * dy;
+    if (square <= most * most) return mid;
+    const double s = most / std::sqrt(square);
+    return {f.at.x + s * dx, f.at.y + s * dy};
+  }
+  const double aside = dy * f.gx - dx * f.gy;
+  if (std::fabs(aside) <= most) return mid;
+  const double shift = (aside > 0 ? most : -most) - aside;
+  return {mid.x - shift * f.gy, mid.y + shift * f.gx};
+}
+
+/// Slope from which a face's plane says little about its height within a box.
+constexpr double steep = 16;
+
+/// A linear function that is nowhere in the part of the box in the patch's domain below the patch.
+inline Envelope::Plane Envelope::support(Index i, const BoxFrame& box) const {
+  const Patch& f = patches_[i];
+  const Point mid = box.mid;
+  if (f.kind != FeatureKind::face) {
+    const Point p = support_point(i, mid, 2 * std::max(box.hx, box.hy));
+    const Gradient g = patches_.gradient(i, p);
+    return {patches_.extended_height(i, p) + g.x * (mid.x - p.x) + g.y * (mid.y - p.y), g};
+  }
+  const Plane whole{f.z + (f.gx * (mid.x - f.at.x) + f.gy * (mid.y - f.at.y)), {f.gx, f.gy}};
+  return std::fabs(f.gx) + std::fabs(f.gy) < steep ? whole : support_of_steep(i, whole, box);
+}
+
+/// A steep face that rises towards one of its own sides is not above its height there.
+Envelope::Plane Envelope::support_of_steep(Index i, const Plane& whole, const BoxFrame& box) const {
+  const Patch& f = patches_[i];
+  const auto highest = [&](const Plane& t) {
+    return t.height + std::fabs(t.gradient.x) * box.hx + std::fabs(t.gradient.y) * box.hy;
+  };
+  Plane best = whole;
+  for (const Bound& b : patches_.bounds(i)) {
+    const double sign = b.negative ? 1 : -1, rise = sign * (f.gx * b.nx + f.gy * b.ny);
+    if (!(rise > 0)) continue;
+    const double k = sign * rise;
+    const Plane t{whole.height - k * b.value(box.mid, 0), {f.gx - k * b.nx, f.gy - k * b.ny}};
+    if (highest(t) < highest(best)) best = t;
+  }
+  return best;
+}
+
+bool Envelope::domain_covers(Index i, const BoxFrame& box) const {
+  for (const Bound& b : patches_.bounds(i)) {
+    if (!is_within(b, box)) return false;
+  }
+  return true;
+}
+
+/// The one wall at which the patch's body ends within the box, if there is one and nothing else of the body's outline meets the box.
+/// Inside of it the body is at least as high as its rim: a ball as its centre, a cigar as its axis beside the place.
+/// A bit beyond an edge's ends its line is as good an outline as the circle there.
+std::optional<Envelope::Wall> Envelope::wall_through(Index i, const BoxFrame& box) const {
+  const Patch& f = patches_[i];
+  if (f.kind == FeatureKind::vertex) return Wall{{f.at, 0, 0, 0, Bound::Type::disc, true, none, true}, 0};
+  if (f.kind == FeatureKind::face) return std::nullopt;
+  const double dx = box.mid.x - f.at.x, dy = box.mid.y - f.at.y, along = dx * f.gx + dy * f.gy;
+  const double spread = std::fabs(f.gx) * box.hx + std::fabs(f.gy) * box.hy + noise_;
+  const double beyond = std::max({0.0, spread - along, along + spread - f.length});
+  if (beyond * beyond > patches_.radius() * tolerance_ / 4) return std::nullopt;
+  const bool left = dy * f.gx - dx * f.gy > 0;
+  const double limit = left ? patches_.radius() : -patches_.radius();
+  return Wall{{f.at, -f.gy, f.gx, limit, Bound::Type::line, left, none, true}, std::fabs(f.m) * beyond};
+}
+
+std::optional<Bound> Envelope::wall_above(Index upper, Index lower, const Box& box) const {
+  const std::optional<Wall> wall = wall_through(upper, BoxFrame(box));
+  if (!wall) return std::nullopt;
+  const Point mid = box.middle(), p = support_point(lower, mid, box.larger_side());
+  const Gradient g = patches_.gradient(lower, p);
+  for (const Point q : {box.low, Point{box.high.x, box.low.y}, box.high, Point{box.low.x, box.high.y}}) {
+    if (!(patches_.extended_height(lower, p) + g.x * (q.x - p.x) + g.y * (q.y - p.y) < rim_height(upper, q) - wall->lowered - noise_)) {
+      return std::nullopt;
+    }
+  }
+  return wall->outline;
+}
+
+/// True if the patch lies on the inner side of another one's wall within the box, as far as matters.
+bool Envelope::ends_before(Index i, const Bound& wall, const Box& box) const {
+  const Patch& f = patches_[i];
+  const double tolerance = tolerance_ / 4;
+  if (wall.type == Bound::Type::line) {
+    for (const Bound& b : patches_.bounds(i)) {  // its own straight side runs along the wall
+      if (b.type != Bound::Type::line) continue;
+      const double s = (b.negative ? -1 : 1), w = (wall.negative ? -1 : 1);
+      const Point m = box.middle();
+      const double excess = s * b.value(m, 0) - w * wall.value(m, 0);
+      const double spread = std::fabs(s * b.nx - w * wall.nx) * box.half_x() + std::fabs(s * b.ny - w * wall.ny) * box.half_y();
+      if (excess + spread <= tolerance) return true;
+    }
+  }
+  if (wall.type == Bound::Type::disc) {
+    const auto is_centre = [&](Point p) { return std::hypot(p.x - wall.at.x, p.y - wall.at.y) <= tolerance; };
+    if (f.kind != FeatureKind::edge) return f.kind == FeatureKind::vertex && is_centre(f.at);
+    // Beyond its end an edge's body is a ball.
+    const Point mid = box.middle();
+    const double along = (mid.x - f.at.x) * f.gx + (mid.y - f.at.y) * f.gy;
+    const double spread = std::fabs(f.gx) * box.half_x() + std::fabs(f.gy) * box.half_y() - std::sqrt(patches_.radius() * tolerance);
+    if (along + spread <= 0) return is_centre(f.at);
+    return along - spread >= f.length && is_centre({f.at.x + f.length * f.gx, f.at.y + f.length * f.gy});
+  }
+  const auto beyond = [&](Point p) {  // of the edge's line, towards the wall
+    const double aside = (p.x - wall.at.x) * wall.nx + (p.y - wall.at.y) * wall.ny;
+    return wall.negative ? aside : -aside;
+  };
+  if (f.kind == FeatureKind::vertex) return beyond(f.at) <= tolerance;
+  if (f.kind == FeatureKind::edge) {
+    return beyond(f.at) <= tolerance && beyond({f.at.x + f.length * f.gx, f.at.y + f.length * f.gy}) <= tolerance;
+  }
+  for (const Point c : patches_.corners(i)) {
+    if (beyond(c) > patches_.radius() + tolerance) return false;
+  }
+  return true;
+}
+
+/// Two edges that run beside or above each other, as seen from above. With u(b) = sqrt(R^2 - b^2) for the distance b from one axis and
+/// b + e from the other, and s between b / u(b) at the two, their heights differ by
+///   level + (q_k - q_c) u(b) + q_c e s,
+/// where level and e are linear in the place.
+bool Envelope::hidden_beside(Index lower, Index upper, const BoxFrame& frame) const {
+  const Patch &c = patches_[lower], &k = patches_[upper];
+  if (c.kind != FeatureKind::edge || k.kind != FeatureKind::edge) return false;
+  if (std::fabs(c.gx * k.gy - c.gy * k.gx) > 0x1p-8) return false;
+  const auto aside = [](const Patch& f, Point p) { return (p.y - f.at.y) * f.gx - (p.x - f.at.x) * f.gy; };
+  const double turn = c.gx * k.gx + c.gy * k.gy > 0 ? 1 : -1;
+  const Box& box = frame.box;
+  const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+  double apart[4], widest = 0;
+  for (int i = 0; i < 4; ++i) {
+    apart[i] = turn * aside(c, corner[i]) - aside(k, corner[i]);
+    widest = std::max(widest, std::fabs(apart[i]));
+  }
+  if (widest > 0x1p-4 * patches_.radius()) return false;
+  for (const Bound& b : patches_.bounds(upper)) {
+    if (b.type == Bound::Type::cone && !is_within(b, frame)) return false;
+  }
+  const double beta = aside(k, frame.mid), square = patches_.square_radius();
+  const double spread = std::fabs(k.gx) * frame.hy + std::fabs(k.gy) * frame.hx;
+  const double near = std::max(0.0, std::fabs(beta) - spread), far = std::fabs(beta) + spread;
+  const double up[2] = {std::sqrt(std::max(0.0, square - far * far)), std::sqrt(std::max(0.0, square - near * near))};
+  double slope[2] = {0, 0};
+  if (widest > tolerance_ / 4) {
+    const double low = beta - spread - widest, high = beta + spread + widest;
+    if (!(std::max(-low, high) < patches_.radius())) return false;
+    slope[0] = low / std::sqrt(square - low * low);
+    slope[1] = high / std::sqrt(square - high * high);
+  }
+  for (int i = 0; i < 4; ++i) {
+    const double level = axis_height(upper, corner[i]) - axis_height(lower, corner[i]);
+    for (const double s : slope) {
+      for (const double u : up) {
+        if (!(level + (k.q - c.q) * u + c.q * apart[i] * s > noise_)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// True if nothing that the ball touches with the lower patch rises above the upper one's plane: then the lower patch does not rise
+/// above the plane moved by R, however tangent to it.
+bool Envelope::hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const {
+  const Patch &c = patches_[lower], &k = patches_[upper];
+  if (k.kind != FeatureKind::face || c.kind == FeatureKind::face) return false;
+  const double plane = k.z - patches_.radius() * k.q, slack = noise_ * k.q;  // the plane through the triangle
+  const auto above = [&](double x, double y, double z) {
+    return z - (plane + k.gx * (x - k.at.x) + k.gy * (y - k.at.y)) > slack;
+  };
+  if (above(c.at.x, c.at.y, c.z)) return false;
+  if (c.kind == FeatureKind::edge && above(c.at.x + c.length * c.gx, c.at.y + c.length * c.gy, c.z + c.m * c.length)) return false;
+  return domain_covers(upper, frame);
+}
+
+/// True if the lower patch's feature lies in the upper one's or straight below it, and is no part of its border: then so does
+/// all that a ball touches with it.
+bool Envelope::lies_in(Index lower, Index upper) const {
+  const Patch &c = patches_[lower], &k = patches_[upper];
+  if (c.kind == FeatureKind::face || c.kind > k.kind || k.kind == FeatureKind::vertex) return false;
+  const double tolerance = tolerance_ / 4;
+  const Point a = c.at, b{c.at.x + c.length * c.gx, c.at.y + c.length * c.gy};
+  const double top_a = c.z, top_b = c.z + c.m * c.length;
+  if (k.kind == FeatureKind::edge) {
+    const auto along = [&](Point p) { return (p.x - k.at.x) * k.gx + (p.y - k.at.y) * k.gy; };
+    const auto holds = [&](Point p, double z) {
+      const double t = along(p);
+      return std::fabs((p.y - k.at.y) * k.gx - (p.x - k.at.x) * k.gy) <= tolerance && t >= -tolerance && t <= k.length + tolerance &&
+             z <= k.z + k.m * t + noise_;
+    };
+    if (c.kind == FeatureKind::vertex) return holds(a, top_a) && along(a) > tolerance_ && along(a) < k.length - tolerance_;
+    return c.length < k.length - tolerance_ && holds(a, top_a) && holds(b, top_b);
+  }
+  // A face's patch is the face itself, moved by R along its normal.
+  const double rise = patches_.radius() / k.q;
+  const auto holds = [&](Point p, double z, double margin) {
+    if (z > k.z - rise + k.gx * (p.x - k.at.x - k.gx * rise) + k.gy * (p.y - k.at.y - k.gy * rise) + noise_ * k.q) return false;
+    for (const Bound& side : patches_.bounds(upper)) {
+      if ((side.negative ? 1 : -1) * side.value({p.x - k.gx * rise, p.y - k.gy * rise}, 0) > -margin) return false;
+    }
+    return true;
+  };
+  if (c.kind == FeatureKind::vertex) return holds(a, top_a, tolerance_);
+  const Point middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
+  return holds(middle, (top_a + top_b) / 2, tolerance_) && holds(a, top_a, -tolerance) && holds(b, top_b, -tolerance);
+}
+
+/// True if two straight walls run along each other in the box, each with its patch on its own side and no gap between.
+bool Envelope::back_to_back(const Bound& a, const Bound& b, const Box& box) const {
+  if (a.type != Bound::Type::line || b.type != Bound::Type::line) return false;
+  const double s = a.negative ? 1 : -1, t = b.negative ? 1 : -1;  // the values times these are negative inside
+  const Point m = box.middle();
+  const double spread = std::fabs(s * a.nx + t * b.nx) * box.half_x() + std::fabs(s * a.ny + t * b.ny) * box.half_y();
+  return s * a.value(m, 0) + t * b.value(m, 0) + spread <= tolerance_ / 4;
+}
+
+/// The bodies of a few labels over a box, evaluated at its corners as far as needed: a concave height is least at a corner, less
+/// a plane too.
+class Envelope::Cover {
+ public:
+  Cover(const Envelope& envelope, const BoxFrame& frame, std::span<const Index> labels)
+      : envelope_(envelope), frame_(frame), bodies_(labels.size()) {
+    const Box& box = frame.box;
+    corner_[0] = box.low;
+    corner_[1] = {box.high.x, box.low.y};
+    corner_[2] = box.high;
+    corner_[3] = {box.low.x, box.high.y};
+    if (box.low.x == box.high.x || box.low.y == box.high.y) step_ = 2;
+    for (std::size_t k = 0; k < bodies_; ++k) body_[k].label = labels[k];
+  }
+
+  /// True if the patch, which lies below the given plane, is nowhere seen.
+  bool hides(Index c, const Plane& plane) {
+    const double hx = plane.gradient.x * frame_.hx, hy = plane.gradient.y * frame_.hy, h = plane.height;
+    const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
+    const int highest = step_ == 2 ? (hx + hy > 0 ? 2 : 0) : hy > 0 ? (hx > 0 ? 2 : 3) : (hx > 0 ? 1 : 0);
+    if (hides(c, t, highest)) return true;
+    // Faces that are nearly vertical have a top, but no tangent plane worth having.
+    const double top = envelope_.patches_[c].top;
+    if (!(top < t[highest])) return false;
+    const double level[4] = {top, top, top, top};
+    return below_one(c, masks(level, highest));
+  }
+
+ private:
+  static constexpr std::size_t most = 4;
+  using Masks = std::array<unsigned, most>;  // per body: at which corners it is higher
+  struct Body {
+    Index label;
+    std::optional<Wall> wall;     // where the body ends within the box
+    double height[4];             // with a wall: of its rim
+    unsigned known = 0;
+    bool ends = false;
+    enum class Covers : std::uint8_t { unknown, no, yes } covers = Covers::unknown;
+  };
+
+  unsigned all_corners() const { return step_ == 1 ? 15 : 5; }
+
+  bool is_above(Body& b, int i, double t) {
+    if ((b.known >> i & 1) == 0) {
+      b.height[i] = envelope_.patches_.body_height(b.label, corner_[i]);
+      b.known |= 1u << i;
+      if (!(b.height[i] > below_everything)) end_at_wall(b);
+    }
+    if (b.height[i] - envelope_.noise_ > t) return true;
+    if (b.ends || !(b.height[i] + envelope_.noise_ > t)) return false;
+    // A patch over all of the box may hide what sticks out by less than matters. One that is not might be hidden itself, as
+    // part of another's body, by what it would hide: then only what is clearly lower.
+    if (b.covers == Body::Covers::unknown) {
+      b.covers = envelope_.domain_covers(b.label, frame_) ? Body::Covers::yes : Body::Covers::no;
+    }
+    return b.covers == Body::Covers::yes;
+  }
+
+  void end_at_wall(Body& b) {
+    b.wall = envelope_.wall_through(b.label, frame_);
+    b.ends = true;
+    b.known = 15;
+    for (int i = 0; i < 4; ++i) b.height[i] = b.wall ? envelope_.rim_height(b.label, corner_[i]) - b.wall->lowered : below_everything;
+  }
+
+  /// Without any bit if no body is higher at some corner.
+  Masks masks(const double (&t)[4], int first) {
+    Masks m{};
+    for (int n = 0; n < 4; n += step_) {
+      const int i = (first + n) & 3;
+      bool any = false;
+      for (std::size_t k = 0; k < bodies_; ++k) {
+        Body& b = body_[k];
+        const bool ended = b.ends;
+        if (is_above(b, i, t[i])) m[k] |= 1u << i;
+        if (b.ends != ended) {
+          for (int before = 0; before < n; before += step_) {
+            const int j = (first + before) & 3;
+            m[k] &= ~(1u << j);
+            if (is_above(b, j, t[j])) m[k] |= 1u << j;
+          }
+        }
+        any = any || (m[k] >> i & 1) != 0;
+      }
+      if (!any) return {};
+    }
+    return m;
+  }
+
+  bool below_one(Index c, const Masks& m) const {
+    for (std::size_t k = 0; k < bodies_; ++k) {
+      if (m[k] != all_corners()) continue;
+      if (!body_[k].wall || envelope_.ends_before(c, body_[k].wall->outline, frame_.box)) return true;
+    }
+    return false;
+  }
+
+  bool hides(Index c, const double (&t)[4], int highest) {
+    const Masks m = masks(t, highest);
+    if (below_one(c, m)) return true;
+    for (std::size_t k = 0; k < bodies_; ++k) {
+      for (std::size_t l = k + 1; l < bodies_; ++l) {
+        if ((m[k] | m[l]) != all_corners()) continue;
+        const Body &a = body_[k], &b = body_[l];
+        if (!a.ends && !b.ends && below_mean(a, b, t)) return true;
+        // Two walls back to back: one of the bodies is there at every place.
+        if (m[k] == m[l] && a.wall && b.wall && envelope_.back_to_back(a.wall->outline, b.wall->outline, frame_.box)) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Below a weighted mean of two bodies, which is concave too and not above the higher one.
+  bool below_mean(const Body& a, const Body& b, const double (&t)[4]) const {
+    double low = 0, high = 1;
+    for (int i = 0; i < 4; i += step_) {
+      const double slope = a.height[i] - b.height[i], need = t[i] + envelope_.noise_ - b.height[i];
+      if (slope > 0) low = std::max(low, need / slope);
+      else if (slope < 0) high = std::min(high, need / slope);
+      else if (need >= 0) return false;
+    }
+    return low < high;
+  }
+
+  const Envelope& envelope_;
+  const BoxFrame& frame_;
+  std::size_t bodies_;
+  int step_ = 1;  // a line has two ends
+  Point corner_[4];
+  Body body_[most];
+};
+
+void Envelope::filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
+                      std::vector<Index>& out) const {
+  const BoxFrame frame(box);
+  // Where the box is large beside R nothing is hidden below one body.
+  const bool small = box.larger_side() < 2 * patches_.radius();
+  const std::size_t begin = out.size();
+  Index champion[4] = {none, none, none, none};
+  std::copy(champions.begin(), champions.end(), champion);
+  const auto is_champion = [&](Index c) {  // without branches, which nothing predicts
+    return bool((c == champion[0]) | (c == champion[1]) | (c == champion[2]) | (c == champion[3]));
+  };
+  bool others = false;
+  for (const Index c : candidates) {
+    if (!patches_.box(c).meets(box)) continue;
+    // A champion is seen at a corner: only a wall can keep it from mattering.
+    const bool seen = is_champion(c);
+    if ((!seen || patches_[c].has_rim) && !domain_meets(c, frame)) continue;
+    others = others || !seen;
+    out.push_back(c);
+  }
+  if (!small || !others) return;
+
+  Cover cover(*this, frame, champions);
+  const auto is_hidden = [&](Index c) {
+    if (cover.hides(c, support(c, frame))) return true;
+    for (const Index k : champions) {
+      if (hidden_beside(c, k, frame) || hidden_below_face(c, k, frame) || lies_in(c, k)) return true;
+    }
+    return false;
+  };
+  std::size_t kept = begin;
+  for (std::size_t i = begin; i < out.size(); ++i) {
+    const Index c = out[i];
+    if (is_champion(c) || !is_hidden(c)) out[kept++] = c;
+  }
+  out.resize(kept);
+}
+
+bool Envelope::stays_hidden(Index c, const Box& box, std::span<const Index> labels, int depth) const {
+  const Box& own = patches_.box(c);
+  const Box part{{std::max(box.low.x, own.low.x), std::max(box.low.y, own.low.y)},
+                 {std::min(box.high.x, own.high.x), std::min(box.high.y, own.high.y)}};
+  if (!(part.low.x <= part.high.x && part.low.y <= part.high.y)) return true;
+  const BoxFrame frame(part);
+  if (!domain_meets(c, frame)) return true;
+  Cover cover(*this, frame, labels);
+  if (cover.hides(c, support(c, frame))) return true;
+  if (depth == 0) return false;
+  Box first = part, second = part;
+  if (frame.hx > frame.hy) first.high.x = second.low.x = frame.mid.x;
+  else first.high.y = second.low.y = frame.mid.y;
+  return stays_hidden(c, first, labels, depth - 1) && stays_hidden(c, second, labels, depth - 1);
+}
+
+/// Bodies are concave, and so are weighted means of two of them: least against a plane at the corners of the box.
+bool Envelope::hidden_within_tolerance(Index i, std::span<const Index> uppers, const Box& box) const {
+  constexpr std::size_t most = 6;
+  if (box.larger_side() >= 2 * patches_.radius()) return false;
+  const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+  const Plane plane = support(i, BoxFrame(box));
+  const double hx = plane.gradient.x * box.half_x(), hy = plane.gradient.y * box.half_y(), h = plane.height;
+  const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
+  std::array<std::array<double, 4>, most> above;  // of the bodies over the plane
+  std::size_t count = 0;
+  for (std::size_t u = 0; u < uppers.size() && count < most; ++u) {
+    for (int k = 0; k < 4; ++k) above[count][k] = patches_.body_height(uppers[u], corner[k]) - t[k] + tolerance_;
+    if (std::find(above[count].begin(), above[count].end(), below_everything) == above[count].end()) ++count;
+  }
+  for (std::size_t a = 0; a < count; ++a) {
+    for (std::size_t b = 0; b <= a; ++b) {
+      double low = 0, high = 1;  // weights of a that are enough
+      for (int k = 0; k < 4; ++k) {
+        const double slope = above[a][k] - above[b][k];
+        if (slope > 0) low = std::max(low, -above[b][k] / slope);
+        else if (slope < 0) high = std::min(high, -above[b][k] / slope);
+        else if (above[b][k] < 0) high = -1;
+      }
+      if (low <= high) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace krepl::terrain
