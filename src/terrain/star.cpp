@@ -104,7 +104,7 @@ std::optional<Point> Cells::common_corner(const Box& box) const {
 std::optional<Point> Cells::star_point(const Box& box) const {
   const PatchSet& patches = envelope_.patches();
   const double square = patches.square_radius(), radius = patches.radius();
-  std::array<Condition, 16> condition;
+  std::array<Condition, 16> condition{};
   const std::size_t n = turns_.size();
   if (n > condition.size()) return std::nullopt;
 
@@ -113,6 +113,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
     condition[i] = {nullptr, t.before, t.after, false};
     if (t.meeting != Meeting::valley && (condition[i].bound = side_along(t)) == nullptr) return std::nullopt;
   }
+  const std::array<Condition, 16> anywhere = condition;
   // Near the end of a patch its height falls like a square root; the height of the wall itself is smooth.
   for (std::size_t i = 0; i < n; ++i) {
     if (condition[i].bound != nullptr) continue;
@@ -183,7 +184,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t j = (i + 1) % n;
       for (const Point start : {middle, turns_[i].at, turns_[j].at}) {
-        const std::optional<Point> p = solve(condition[i], condition[j], start);
+        const std::optional<Point> p = solve(anywhere[i], anywhere[j], start);
         if (!p || std::hypot(p->x - corner->x, p->y - corner->y) <= 16 * tolerance) continue;
         if (shows_at(turns_[i].before, *p) && shows_at(turns_[i].after, *p) && shows_at(turns_[j].after, *p)) return std::nullopt;
       }
