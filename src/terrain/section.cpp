@@ -43,8 +43,9 @@ void Envelope::drop_slivers(const Line& line, Index start, std::size_t first, st
       --kept;
       const Index before = label_before(kept), after = crossings[kept + 1].after;
       if (before == after) continue;
+      const bool was_gap = crossings[kept].after == none;
       crossings[kept].after = after;
-      crossings[kept].meeting = meeting(before, after, line.point(crossings[kept].t));
+      crossings[kept].meeting = was_gap ? Meeting::rim : meeting(before, after, line.point(crossings[kept].t));
     }
     ++kept;
   }
@@ -184,7 +185,9 @@ double Envelope::locate(const Line& line, double t0, Index l0, double t1, Index 
     if (m == a || m == b) break;
     (winner(line.point(m), both) == l0 ? a : b) = m;
   }
-  how = meeting(l0, l1, line.point((a + b) / 2));
+  // Where the one ends before the other begins there is a gap between two walls, if too narrow to show.
+  const bool is_gap = l0 != none && l1 != none && !patches_.contains(l0, line.point(b)) && !patches_.contains(l1, line.point(b));
+  how = is_gap ? Meeting::rim : meeting(l0, l1, line.point((a + b) / 2));
   return a + (b - a) / 2;
 }
 
