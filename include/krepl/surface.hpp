@@ -67,13 +67,14 @@ class Surface {
   /// equally spaced. At a rim z is that of the upper patch.
   std::vector<Point3> curve(Index e, int points) const;
 
-  /// Topology by Subdivision::validate(), and labels: the ball touches something on both sides of each edge, or on the upper one of a rim.
+  /// Topology by Subdivision::validate(), and labels: the ball touches something on both sides of each edge, or on the
+  /// upper one of a rim.
   std::optional<std::string> validate() const;
 
  private:
   friend class SurfaceAssembly;
-  // An edge in one byte: its kind, its curve, and the lower side of a rim, left 0 or right 1, else 2. Its features are those of its
-  // faces.
+  // An edge in one byte: its kind, its curve, and the lower side of a rim, left 0 or right 1, else 2. Its features are those of
+  // its faces.
   static std::uint8_t style_of(EdgeKind kind, Curve curve, int lower) {
     return std::uint8_t(int(kind) | int(curve) << 2 | lower << 4);
   }

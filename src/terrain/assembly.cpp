@@ -15,8 +15,8 @@ namespace {
 // Sides of a tile.
 constexpr std::uint8_t bottom = 0, right = 1, top = 2, left = 3;
 
-/// For so many elements more in a vector that will have `part` of them when it is complete. What is reserved too much is never written
-/// to and so costs no memory; growing by doubling would hold two copies of a large array.
+/// For so many elements more in a vector that will have `part` of them when it is complete. What is reserved too much is never
+/// written to and so costs no memory; growing by doubling would hold two copies of a large array.
 template <class T>
 void make_room(std::vector<T>& vector, std::size_t more, double part) {
   const std::size_t needed = vector.size() + more;
@@ -54,12 +54,15 @@ Error SurfaceAssembly::disagreement(std::uint8_t side) const {
 
 void SurfaceAssembly::make_room(const Tile& tile) {
   const double part = double(tiles_ + 1) / double(tiling_.count());
-  const std::size_t half_edges = tile.arm_begin.back() + 2 * tile.side_crossing[left].size() + 2 * tile.side_crossing[bottom].size();
+  const std::size_t joined = tile.side_crossing[left].size() + tile.side_crossing[bottom].size();
+  const std::size_t half_edges = tile.arm_begin.back() + 2 * joined;
   Subdivision& s = surface_.subdivision_;
   krepl::make_room(surface_.vertex_, tile.vertices.size(), part);
   krepl::make_room(surface_.style_, half_edges / 2, part);
   for (std::vector<Index>* array : {&s.origin, &s.next, &s.face}) krepl::make_room(*array, half_edges, part);
-  for (std::vector<Index>* array : {&region_, &surface_.face_feature_}) krepl::make_room(*array, tile.region_feature.size(), part);
+  for (std::vector<Index>* array : {&region_, &surface_.face_feature_}) {
+    krepl::make_room(*array, tile.region_feature.size(), part);
+  }
   krepl::make_room(surface_.guide_, tile.guides.size(), part);
 }
 
@@ -95,7 +98,8 @@ std::optional<Error> SurfaceAssembly::add(Tile tile) {
 
   const std::size_t column = tiles_ % tiling_.columns, row = tiles_ / tiling_.columns;
   const auto is_rim = [&](std::uint8_t s) {
-    return s == bottom ? row == 0 : s == top ? row + 1 == tiling_.rows : s == left ? column == 0 : column + 1 == tiling_.columns;
+    if (s == bottom || s == top) return row == (s == bottom ? 0 : tiling_.rows - 1);
+    return column == (s == left ? 0 : tiling_.columns - 1);
   };
   for (const std::uint8_t s : {bottom, right, top, left}) {
     if (is_rim(s) && !sides[s].crossing.empty()) return disagreement(s);
@@ -113,13 +117,14 @@ void SurfaceAssembly::add_inner_edges(const Tile& tile, TileArms& arms) {
   arms.half_edge.assign(tile.arm_begin.back(), none);
   std::vector<Index> vertex_of(tile.arm_begin.back());
   for (std::size_t v = 0; v + 1 < tile.arm_begin.size(); ++v) {
-    std::fill(vertex_of.begin() + tile.arm_begin[v], vertex_of.begin() + tile.arm_begin[v + 1], Index(surface_.vertex_.size() + v));
+    const auto first = vertex_of.begin();
+    std::fill(first + tile.arm_begin[v], first + tile.arm_begin[v + 1], Index(surface_.vertex_.size() + v));
   }
   for (const Chain& chain : tile.chains) {
     if (!is_inner(chain)) continue;
     const Index from = chain.end[0].index, to = chain.end[1].index;
-    const Index h = add_edge(Surface::style_of(chain.kind, chain.curve, chain.lower), chain.region[0], chain.region[1], vertex_of[from],
-                             vertex_of[to]);
+    const std::uint8_t style = Surface::style_of(chain.kind, chain.curve, chain.lower);
+    const Index h = add_edge(style, chain.region[0], chain.region[1], vertex_of[from], vertex_of[to]);
     add_guides(tile.guides.data() + chain.first_guide, chain.guide_count);
     arms.half_edge[from] = h;
     arms.half_edge[to] = h + 1;
@@ -208,7 +213,7 @@ void SurfaceAssembly::join(StrandEnd earlier, StrandEnd later) {
   // Guides of b in the direction of a.
   if (kept.end == taken.end) std::reverse(b.guides.begin(), b.guides.end());
   a.guides.insert(kept.end == 1 ? a.guides.end() : a.guides.begin(), b.guides.begin(), b.guides.end());
-  b.guides = {};
+  b.guides = std::vector<Point3>();
   const int far = 1 - taken.end;
   a.arm[kept.end] = b.arm[far];
   if (b.arm[far].open_vertex == none) {
@@ -226,7 +231,7 @@ void SurfaceAssembly::emit(Index number) {
   const Index h = add_edge(strand.style, strand.region[0], strand.region[1], open_vertex_[from.open_vertex].vertex,
                            open_vertex_[to.open_vertex].vertex);
   add_guides(strand.guides.data(), strand.guides.size());
-  strand.guides = {};
+  strand.guides = std::vector<Point3>();
   attach(from, h);
   attach(to, h + 1);
   free_strand_.push_back(number);
@@ -239,12 +244,13 @@ void SurfaceAssembly::emit_closed(Index number) {
   surface_.vertex_.push_back(strand.guides.front());
   const Index h = add_edge(strand.style, strand.region[0], strand.region[1], vertex, vertex);
   add_guides(strand.guides.data() + 1, strand.guides.size() - 1);
-  strand.guides = {};
+  strand.guides = std::vector<Point3>();
   connect({h, h + 1});
   free_strand_.push_back(number);
 }
 
-SurfaceAssembly::Index SurfaceAssembly::add_edge(std::uint8_t style, Index left_region, Index right_region, Index from, Index to) {
+SurfaceAssembly::Index SurfaceAssembly::add_edge(std::uint8_t style, Index left_region, Index right_region, Index from,
+                                                 Index to) {
   Subdivision& s = surface_.subdivision_;
   const Index h = Index(s.origin.size());
   s.origin.insert(s.origin.end(), {from, to});
@@ -267,7 +273,7 @@ void SurfaceAssembly::attach(Arm arm, Index half_edge) {
   vertex.half_edge[arm.place] = half_edge;
   if (--vertex.unknown > 0) return;
   connect(vertex.half_edge);
-  vertex.half_edge = {};
+  vertex.half_edge = std::vector<Index>();
   free_open_vertex_.push_back(arm.open_vertex);
 }
 
@@ -280,8 +286,8 @@ void SurfaceAssembly::connect(const std::vector<Index>& around) {
 
 Surface SurfaceAssembly::finish() {
   surface_.subdivision_.vertex_count = surface_.vertex_.size();
-  strand_ = {};
-  open_vertex_ = {};
+  strand_ = std::vector<Strand>();
+  open_vertex_ = std::vector<OpenVertex>();
   number_faces();
   list_loops();
   return std::move(surface_);
@@ -301,7 +307,7 @@ void SurfaceAssembly::number_faces() {
   }
   surface_.face_feature_.resize(count);
   for (Index& f : surface_.subdivision_.face) f = region_[f];
-  region_ = {};
+  region_ = std::vector<Index>();
 }
 
 /// The outer loop of each face, and the inner ones in the order of their first half-edge.

@@ -4,8 +4,8 @@
 
 namespace krepl {
 
-/// Puts the tiles of a surface together as they come, row by row, and keeps of them only what the surface is made of and what still
-/// goes on beyond the tiles seen so far. A friend of Surface.
+/// Puts the tiles of a surface together as they come, row by row, and keeps of them only what the surface is made of and what
+/// still goes on beyond the tiles seen so far. A friend of Surface.
 class SurfaceAssembly {
  public:
   SurfaceAssembly(std::shared_ptr<const Terrain> terrain, double radius, const terrain::Tiling& tiling);
@@ -75,7 +75,8 @@ class SurfaceAssembly {
   const terrain::Tiling tiling_;
   Surface surface_;
   std::size_t tiles_ = 0;  // added
-  std::vector<Index> region_;  // union-find over the regions of all tiles; their features are those of faces until these are numbered
+  // Union-find over the regions of all tiles, whose features are in face_feature_ until faces have numbers.
+  std::vector<Index> region_;
   std::vector<OpenVertex> open_vertex_;
   std::vector<Index> free_open_vertex_;
   std::vector<Strand> strand_;

@@ -18,8 +18,8 @@ std::string number(double x) {
 
 Error uncertified(const Terrain& terrain, Point at) {
   const Point3 o = terrain.origin();
-  return Error{ErrorCode::computation, "the surface could not be certified", "near x " + number(at.x + o.x) + ", y " + number(at.y + o.y),
-               "please report this input"};
+  return Error{ErrorCode::computation, "the surface could not be certified",
+               "near x " + number(at.x + o.x) + ", y " + number(at.y + o.y), "please report this input"};
 }
 
 /// Puts tiles together in their order, whatever order they come in, while others are being computed.

@@ -22,8 +22,8 @@ std::vector<Point3> Surface::curve(Index e, int points) const {
   std::vector<Point3> base{vertex_[subdivision_.origin[2 * e]]};
   const auto guided = std::lower_bound(guided_edge_.begin(), guided_edge_.end(), e);
   if (guided != guided_edge_.end() && *guided == e && edge.curve != Curve::line) {
-    const auto number = guided - guided_edge_.begin();
-    base.insert(base.end(), guide_.begin() + guide_begin_[std::size_t(number)], guide_.begin() + guide_begin_[std::size_t(number) + 1]);
+    const auto begin = guide_begin_.begin() + (guided - guided_edge_.begin());
+    base.insert(base.end(), guide_.begin() + begin[0], guide_.begin() + begin[1]);
   }
   base.push_back(vertex_[subdivision_.origin[2 * e + 1]]);
   // A vertex on a wall is at its upper end; an edge that meets the wall further down ends there.

@@ -167,8 +167,8 @@ class ChainWriter {
     return none;
   }
 
-  /// True if the chord between the two ends of an edge tells which part of its curve is meant: the way from the chord to the curve
-  /// is short and ends between them.
+  /// True if the chord between the two ends of an edge tells which part of its curve is meant: the way from the chord's
+  /// middle to the curve is short.
   bool chord_tells(Point3 a, Point3 b, double length) const {
     const double radius = cells_.envelope().patches().radius(), chord = distance(a, b);
     if (!(chord > 0) || length > bent * chord) return false;
