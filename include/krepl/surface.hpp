@@ -59,7 +59,7 @@ class Surface {
   const SurfaceCounters& counters() const { return counters_; }
 
   Point3 vertex(Index v) const { return vertex_[v]; }
-  Edge edge(Index e) const { return edge_[e]; }
+  Edge edge(Index e) const;
   /// none for faces without a patch: face 0 and holes.
   Index face_feature(Index f) const { return face_feature_[f]; }
 
@@ -67,18 +67,27 @@ class Surface {
   /// equally spaced. At a rim z is that of the upper patch.
   std::vector<Point3> curve(Index e, int points) const;
 
-  /// Topology by Subdivision::validate(), and labels: each half-edge has the feature of its face or is a rim.
+  /// Topology by Subdivision::validate(), and labels: the ball touches something on both sides of each edge, or on the
+  /// upper one of a rim.
   std::optional<std::string> validate() const;
 
  private:
   friend class SurfaceAssembly;
+  // An edge in one byte: its kind, its curve, and the lower side of a rim, left 0 or right 1, else 2. Its features are those of
+  // its faces.
+  static std::uint8_t style_of(EdgeKind kind, Curve curve, int lower) {
+    return std::uint8_t(int(kind) | int(curve) << 2 | lower << 4);
+  }
+
   double radius_ = 0;
   std::shared_ptr<const Terrain> terrain_;
   Subdivision subdivision_;
   std::vector<Point3> vertex_;
-  std::vector<Edge> edge_;
+  std::vector<std::uint8_t> style_;   // per edge
   std::vector<Index> face_feature_;
-  std::vector<Index> guide_begin_;  // per edge and one more: its inner points in guide_, along half-edge 2e
+  // Points between the ends of the few edges of which the chord does not tell the curve, along half-edge 2e.
+  std::vector<Index> guided_edge_;    // ascending
+  std::vector<Index> guide_begin_;    // per guided edge and one more: where its points start in guide_
   std::vector<Point3> guide_;
   SurfaceCounters counters_;
 };

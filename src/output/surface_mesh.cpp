@@ -114,10 +114,14 @@ std::vector<Surface::Index> edges_around(const Surface& surface, const std::vect
   return edges;
 }
 
-Result<SurfaceMesh> join(const BorderVertices& border, std::vector<Part> parts) {
+Result<SurfaceMesh> join(std::vector<Point3> border, std::vector<Part> parts) {
   SurfaceMesh mesh;
-  mesh.vertices = border.vertices();
+  mesh.vertices = std::move(border);
   const std::size_t known = mesh.vertices.size();
+  std::size_t vertices = known, triangles = 0;
+  for (const Part& part : parts) vertices += part.inner.size(), triangles += part.triangles.size();
+  mesh.vertices.reserve(vertices);
+  mesh.triangles.reserve(triangles);
   for (Part& part : parts) {
     const std::size_t shift = mesh.vertices.size() - known;
     if (mesh.vertices.size() + part.inner.size() >= ~Index{0}) {
@@ -160,15 +164,18 @@ Result<SurfaceMesh> triangulate_surface(const Surface& surface, double max_error
   Result<SurfaceEdges> edges = SurfaceEdges::make(surface, edge_error, context);
   if (!edges) return edges.error();
   for (int round = 0;; ++round) {
-    const BorderVertices border(surface, *edges);
+    BorderVertices border(surface, *edges);
     Result<std::vector<Part>> parts = triangulate_faces(surface, border, max_error, context);
     if (!parts) return parts.error();
     const std::vector<Surface::Index> narrow = edges_around(surface, *parts);
     if (narrow.empty() || round == refinements) {
-      Result<SurfaceMesh> mesh = join(border, std::move(*parts));
+      const double edges_deviation = edges->deviation();
+      std::vector<Point3> border_vertices = std::move(border).take();
+      *edges = {};
+      Result<SurfaceMesh> mesh = join(std::move(border_vertices), std::move(*parts));
       if (!mesh) return mesh.error();
       compact(*mesh);
-      mesh->deviation += edges->deviation();
+      mesh->deviation += edges_deviation;
       return mesh;
     }
     edge_error *= finer;

@@ -40,6 +40,11 @@ class BorderVertices {
   BorderVertices(const Surface& surface, const SurfaceEdges& edges);
 
   const std::vector<Point3>& vertices() const { return vertices_; }
+  /// The same, once nothing else is asked any more.
+  std::vector<Point3> take() && {
+    for (std::vector<Index>* array : {&corner_, &inner_, &foot_}) *array = std::vector<Index>();
+    return std::move(vertices_);
+  }
   /// The loop of half-edge h as vertices, each once.
   std::vector<Index> loop(Surface::Index h) const;
 

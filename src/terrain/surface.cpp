@@ -7,19 +7,32 @@
 
 namespace krepl {
 
+Surface::Edge Surface::edge(Index e) const {
+  const int style = style_[e], lower = style >> 4;
+  Edge edge{EdgeKind(style & 3), Curve(style >> 2 & 3), {none, none}};
+  for (int side = 0; side < 2; ++side) {
+    if (side != lower) edge.feature[std::size_t(side)] = face_feature_[subdivision_.face[2 * e + Index(side)]];
+  }
+  return edge;
+}
+
 std::vector<Point3> Surface::curve(Index e, int points) const {
   points = std::max(points, 3);
+  const Edge edge = this->edge(e);
   std::vector<Point3> base{vertex_[subdivision_.origin[2 * e]]};
-  base.insert(base.end(), guide_.begin() + guide_begin_[e], guide_.begin() + guide_begin_[e + 1]);
+  const auto guided = std::lower_bound(guided_edge_.begin(), guided_edge_.end(), e);
+  if (guided != guided_edge_.end() && *guided == e && edge.curve != Curve::line) {
+    const auto begin = guide_begin_.begin() + (guided - guided_edge_.begin());
+    base.insert(base.end(), guide_.begin() + begin[0], guide_.begin() + begin[1]);
+  }
   base.push_back(vertex_[subdivision_.origin[2 * e + 1]]);
   // A vertex on a wall is at its upper end; an edge that meets the wall further down ends there.
   const double scale = std::max(radius_, terrain_->extent());
   for (Point3* end : {&base.front(), &base.back()}) {
-    const double z = edge_[e].kind == EdgeKind::rim ? terrain::project_to_curve(*terrain_, radius_, edge_[e], *end).z
-                                                    : terrain::height_on_edge(*terrain_, radius_, edge_[e], *end);
+    const double z = edge.kind == EdgeKind::rim ? terrain::project_to_curve(*terrain_, radius_, edge, *end).z
+                                                : terrain::height_on_edge(*terrain_, radius_, edge, *end);
     if (std::fabs(z - end->z) > 1e-7 * scale) end->z = z;
   }
-  if (edge_[e].curve == Curve::line) base.erase(base.begin() + 1, base.end() - 1);
   const auto distance = [](Point3 p, Point3 q) { return std::hypot(p.x - q.x, p.y - q.y, p.z - q.z); };
   double whole = 0;
   for (std::size_t i = 1; i < base.size(); ++i) whole += distance(base[i - 1], base[i]);
@@ -38,7 +51,7 @@ std::vector<Point3> Surface::curve(Index e, int points) const {
     const double t = length > 0 ? std::clamp((wanted - passed) / length, 0.0, 1.0) : 0.0;
     const Point3 p = base[piece - 1], q = base[piece];
     const Point3 near{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)};
-    curve.push_back(edge_[e].curve == Curve::line ? near : terrain::project_to_curve(*terrain_, radius_, edge_[e], near));
+    curve.push_back(edge.curve == Curve::line ? near : terrain::project_to_curve(*terrain_, radius_, edge, near));
   }
   curve.push_back(base.back());
   return curve;
@@ -48,11 +61,11 @@ std::optional<std::string> Surface::validate() const {
   if (auto problem = subdivision_.validate()) return problem;
   if (face_feature_.size() != subdivision_.face_count()) return "labels and faces differ in number";
   if (face_feature_[0] != none) return "the outside has a feature";
-  for (Index h = 0; h < subdivision_.half_edge_count(); ++h) {
-    const Edge& e = edge_[h / 2];
-    const Index expected = e.feature[h & 1u], found = face_feature_[subdivision_.face[h]];
-    if (expected == found || (e.kind == EdgeKind::rim && expected == none)) continue;
-    return "half-edge " + std::to_string(h) + " names another feature than its face " + std::to_string(subdivision_.face[h]);
+  for (Index e = 0; e < subdivision_.edge_count(); ++e) {
+    const Edge found = edge(e);
+    const bool left = found.feature[0] != none, right = found.feature[1] != none;
+    if (found.kind == EdgeKind::rim ? left != right : left && right) continue;
+    return "the features on the two sides of edge " + std::to_string(e) + " do not belong to its kind";
   }
   return std::nullopt;
 }

@@ -3,18 +3,32 @@
 #include <algorithm>
 #include <numeric>
 
+#include "terrain/curve.hpp"
+
 namespace krepl::terrain {
 namespace {
 
 /// Triangles in a tile, about: enough to make the margin of width R around it cheap, few enough for the cache.
 constexpr double triangles_a_tile = 4096;
 
-double distance(Point3 p, Point3 q) { return std::sqrt((p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y)); }
+double distance(Point3 p, Point3 q) {
+  const double dx = p.x - q.x, dy = p.y - q.y, dz = p.z - q.z;
+  return std::sqrt(dx * dx + dy * dy + dz * dz);
+}
+
+Surface::EdgeKind edge_kind(Meeting meeting) {
+  switch (meeting) {
+    case Meeting::seam: return Surface::EdgeKind::seam;
+    case Meeting::valley: return Surface::EdgeKind::valley;
+    case Meeting::rim: break;
+  }
+  return Surface::EdgeKind::rim;
+}
 
 /// Follows the links of a subdivided tile from cell to cell and writes chains.
 class ChainWriter {
  public:
-  ChainWriter(Cells& cells, Tile& tile) : cells_(cells), tile_(tile) {
+  ChainWriter(Cells& cells, const Terrain& terrain, Tile& tile) : cells_(cells), terrain_(terrain), tile_(tile) {
     line_of_.resize(cells.crossings().size());
     for (Index l = 0; l < cells.lines().size(); ++l) {
       const CellLine& line = cells.lines()[l];
@@ -126,21 +140,25 @@ class ChainWriter {
     chain.region[0] = region_of[left];
     chain.region[1] = region_of[1 - left];
     chain.lower = 2;
-    chain.meeting = crossing.meeting;
+    chain.kind = edge_kind(crossing.meeting);
     upper_ = label[0] == none ? label[1] : label[0];
-    other_ = label[0] == none ? label[0] : label[1];
-    if (crossing.meeting != Meeting::rim) return;
-    const Point p = cells_.place(line, crossing);
-    if (other_ != none && cells_.envelope().border_height(other_, p) > cells_.envelope().border_height(upper_, p)) {
-      std::swap(upper_, other_);
+    Index other = label[0] == none ? label[0] : label[1];
+    if (crossing.meeting == Meeting::rim) {
+      const Point p = cells_.place(line, crossing);
+      if (other != none && cells_.envelope().border_height(other, p) > cells_.envelope().border_height(upper_, p)) {
+        std::swap(upper_, other);
+      }
+      chain.lower = label[left] == upper_ ? 1 : 0;
+      other = none;
     }
-    chain.lower = label[left] == upper_ ? 1 : 0;
+    edge_ = {chain.kind, Surface::Curve::line, {feature(upper_), feature(other)}};
+    chain.curve = edge_.curve = curve_kind(terrain_, edge_);
   }
 
   void add_point(Index c, const Chain& chain) {
     const Point p = cells_.place(line_of_[c], cells_.crossings()[c]);
     const Envelope& e = cells_.envelope();
-    const double z = chain.meeting == Meeting::rim ? e.rim_height(upper_, p) : e.clamped_height(upper_, p);
+    const double z = chain.kind == Surface::EdgeKind::rim ? e.rim_height(upper_, p) : e.clamped_height(upper_, p);
     points_.push_back({p.x, p.y, z});
   }
 
@@ -152,24 +170,33 @@ class ChainWriter {
     return none;
   }
 
-  bool is_straight(const Chain& chain) const {
-    const PatchSet& patches = cells_.envelope().patches();
-    const auto kind = [&](Index label) { return patches[label].kind; };
-    const bool face =
-        kind(upper_) == Terrain::FeatureKind::face || (other_ != none && kind(other_) == Terrain::FeatureKind::face);
-    if (chain.meeting == Meeting::seam) return face;
-    if (chain.meeting == Meeting::rim) return kind(upper_) == Terrain::FeatureKind::edge;
-    return kind(upper_) == Terrain::FeatureKind::face && kind(other_) == Terrain::FeatureKind::face;
+  /// True if the chord between the two ends of an edge tells which part of its curve is meant: the way from the chord's
+  /// middle to the curve is short.
+  bool chord_tells(Point3 a, Point3 b, double length) const {
+    const double radius = cells_.envelope().patches().radius(), chord = distance(a, b);
+    if (!(chord > 0) || length > bent * chord) return false;
+    if (edge_.kind == Surface::EdgeKind::seam) return chord < radius;  // a circle of that radius, projected from its centre
+    const Point3 mid{(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
+    return distance(project_to_curve(terrain_, radius, edge_, mid), mid) < 0.05 * chord;
   }
 
-  /// A few points are enough to tell which part of the curve is meant: the middle one of an open chain that hardly bends.
+  /// Keeps a few points, if it takes any to tell which part of the curve is meant.
   void keep_guides(Chain& chain) {
     chain.first_guide = Index(tile_.guides.size());
+    chain.guide_count = 0;
+    const bool open = chain.end[0].kind != ChainEnd::Kind::closed;
+    if (open && chain.curve == Surface::Curve::line) return;
     const std::size_t n = points_.size();
-    const bool closed = chain.end[0].kind == ChainEnd::Kind::closed;
-    double whole = 0, straight = n > 1 ? distance(points_.front(), points_.back()) : 0;
+    double whole = 0;
     for (std::size_t i = 1; i < n; ++i) whole += distance(points_[i - 1], points_[i]);
-    const std::size_t wanted = closed ? 16 : is_straight(chain) ? 0 : whole > 1.02 * straight ? 5 : 1;
+    double straight = distance(points_.front(), points_.back());
+    if (chain.end[0].kind == ChainEnd::Kind::arm && chain.end[1].kind == ChainEnd::Kind::arm) {
+      const Point3 a = vertex_at(chain.end[0].index), b = vertex_at(chain.end[1].index);
+      const double length = distance(a, points_.front()) + whole + distance(points_.back(), b);
+      if (chord_tells(a, b, length)) return;
+      if (length > bent * distance(a, b)) straight = 0;
+    }
+    const std::size_t wanted = !open ? 16 : whole > bent * straight ? 5 : 1;
     if (n <= wanted) {
       tile_.guides.insert(tile_.guides.end(), points_.begin(), points_.end());
     } else {
@@ -185,12 +212,22 @@ class ChainWriter {
     chain.guide_count = std::uint8_t(tile_.guides.size() - chain.first_guide);
   }
 
+  Point3 vertex_at(Index arm) const {
+    const auto after = std::upper_bound(tile_.arm_begin.begin(), tile_.arm_begin.end(), arm);
+    return tile_.vertices[std::size_t(after - tile_.arm_begin.begin()) - 1];
+  }
+
+  /// A curve so much longer than its chord needs several guides.
+  static constexpr double bent = 1.02;
+
   Cells& cells_;
+  const Terrain& terrain_;
   Tile& tile_;
   std::vector<Index> line_of_, region_number_;
   std::vector<bool> passed_, arm_taken_;
   std::vector<Point3> points_;
-  Index upper_ = none, other_ = none;
+  Index upper_ = none;     // label of the chain's patch, at a rim the upper one
+  Surface::Edge edge_{};   // what the chain is part of; which of the two features is left of it does not matter here
 };
 
 }  // namespace
@@ -239,7 +276,7 @@ Tile TileWorker::compute(const Terrain& terrain, const Tiling& tiling, Index col
     tile.failed_at = cells.failed_at();
     return tile;
   }
-  ChainWriter(cells, tile).write();
+  ChainWriter(cells, terrain, tile).write();
   return tile;
 }
 

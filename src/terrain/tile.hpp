@@ -37,7 +37,8 @@ struct Chain {
   Index first_guide;         ///< points of the curve between its ends, in order
   std::uint8_t guide_count;
   std::uint8_t lower;        ///< the lower side of a rim, left 0 or right 1, where the ball does not touch; 2: none
-  Meeting meeting;
+  Surface::EdgeKind kind;
+  Surface::Curve curve;
 };
 
 /// What is left of a tile once it is subdivided.
