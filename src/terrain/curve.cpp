@@ -14,44 +14,77 @@ namespace {
 /// Directions that differ by less count as parallel or coplanar.
 constexpr double parallel = 1e-12;
 
-struct Vector3 {
-  double x, y, z;
+template <class Real>
+struct Vector {
+  Real x, y, z;
+  Vector() = default;
+  Vector(Real x0, Real y0, Real z0) : x(x0), y(y0), z(z0) {}
+  explicit Vector(Point3 p) : x(p.x), y(p.y), z(p.z) {}
+  explicit operator Point3() const { return {double(x), double(y), double(z)}; }
+  friend Vector operator-(Vector v, Vector w) { return {v.x - w.x, v.y - w.y, v.z - w.z}; }
+  friend Vector operator+(Vector v, Vector w) { return {v.x + w.x, v.y + w.y, v.z + w.z}; }
+  friend Vector operator*(Real s, Vector v) { return {s * v.x, s * v.y, s * v.z}; }
+  friend Real dot(Vector v, Vector w) { return v.x * w.x + v.y * w.y + v.z * w.z; }
+  friend Vector cross(Vector v, Vector w) { return {v.y * w.z - v.z * w.y, v.z * w.x - v.x * w.z, v.x * w.y - v.y * w.x}; }
+  friend Real length(Vector v) { return std::sqrt(dot(v, v)); }
+  friend Vector unit(Vector v) { return (1 / length(v)) * v; }
 };
-Vector3 operator-(Point3 p, Point3 q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
-Vector3 operator*(double s, Vector3 v) { return {s * v.x, s * v.y, s * v.z}; }
-Vector3 operator+(Vector3 v, Vector3 w) { return {v.x + w.x, v.y + w.y, v.z + w.z}; }
-Point3 operator+(Point3 p, Vector3 v) { return {p.x + v.x, p.y + v.y, p.z + v.z}; }
-double dot(Vector3 v, Vector3 w) { return v.x * w.x + v.y * w.y + v.z * w.z; }
-Vector3 cross(Vector3 v, Vector3 w) { return {v.y * w.z - v.z * w.y, v.z * w.x - v.x * w.z, v.x * w.y - v.y * w.x}; }
-double length(Vector3 v) { return std::sqrt(dot(v, v)); }
-Vector3 unit(Vector3 v) { return (1 / length(v)) * v; }
+using Vector3 = Vector<double>;
+Vector3 operator-(Point3 p, Point3 q) { return Vector3(p) - Vector3(q); }
+Point3 operator+(Point3 p, Vector3 v) { return Point3(Vector3(p) + v); }
 
+template <class Real>
 struct Contact {
   FeatureKind kind;
-  Point3 at;
-  Vector3 direction;  // edge: along it; face: its upward normal
+  Vector<Real> at;
+  Vector<Real> direction;  // edge: along it; face: its upward normal
 };
 
-Contact contact_of(const Terrain& terrain, Surface::Index feature) {
+template <class Real = double>
+Contact<Real> contact_of(const Terrain& terrain, Surface::Index feature) {
   const auto c = terrain.corners(feature);
-  if (c.count == 1) return {FeatureKind::vertex, c.point[0], {0, 0, 0}};
-  if (c.count == 2) return {FeatureKind::edge, c.point[0], unit(c.point[1] - c.point[0])};
-  Vector3 n = unit(cross(c.point[1] - c.point[0], c.point[2] - c.point[0]));
-  if (n.z < 0) n = -1.0 * n;
-  return {FeatureKind::face, c.point[0], n};
+  const Vector<Real> a(c.point[0]);
+  if (c.count == 1) return {FeatureKind::vertex, a, {0, 0, 0}};
+  if (c.count == 2) return {FeatureKind::edge, a, unit(Vector<Real>(c.point[1]) - a)};
+  Vector<Real> n = unit(cross(Vector<Real>(c.point[1]) - a, Vector<Real>(c.point[2]) - a));
+  if (n.z < 0) n = Real(-1) * n;
+  return {FeatureKind::face, a, n};
 }
 
 /// Signed distance of a point from what the ball touches, less R, and its gradient.
+template <class Real>
 struct Offset {
-  double value;
-  Vector3 gradient;
+  Real value;
+  Vector<Real> gradient;
 };
-Offset offset(const Contact& c, double radius, Point3 p) {
-  const Vector3 d = p - c.at;
+template <class Real>
+Offset<Real> offset(const Contact<Real>& c, double radius, Vector<Real> p) {
+  const Vector<Real> d = p - c.at;
   if (c.kind == FeatureKind::face) return {dot(d, c.direction) - radius, c.direction};
-  const Vector3 away = c.kind == FeatureKind::vertex ? d : d + (-dot(d, c.direction)) * c.direction;
-  const double l = length(away);
-  return {l - radius, l > 0 ? (1 / l) * away : Vector3{0, 0, 1}};
+  const Vector<Real> away = c.kind == FeatureKind::vertex ? d : d + (-dot(d, c.direction)) * c.direction;
+  const Real l = length(away);
+  return {l - radius, l > 0 ? (1 / l) * away : Vector<Real>{0, 0, 1}};
+}
+
+/// Newton's method towards the curve where both distances are R, by the shortest way. `sine`, if wanted: of the angle between the two
+/// surfaces there.
+template <class Real>
+Point3 project_to_valley(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 near, double* sine = nullptr) {
+  const auto a = contact_of<Real>(terrain, edge.feature[0]), b = contact_of<Real>(terrain, edge.feature[1]);
+  const Real precision = 2 * std::numeric_limits<Real>::epsilon();
+  Vector<Real> p(near);
+  for (int i = 0; i < 20; ++i) {
+    const Offset<Real> f = offset(a, radius, p), g = offset(b, radius, p);
+    const Vector<Real> normal = cross(f.gradient, g.gradient);
+    const Real fg = dot(f.gradient, g.gradient), det = dot(normal, normal);
+    if (sine != nullptr) *sine = double(std::sqrt(det));
+    if (!(det > 1e-24)) break;
+    const Real s = (f.value - fg * g.value) / det, t = (g.value - fg * f.value) / det;
+    const Vector<Real> step = (-s) * f.gradient + (-t) * g.gradient;
+    p = p + step;
+    if (length(step) <= precision * (std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z))) break;
+  }
+  return Point3(p);
 }
 
 /// The circle along which an edge's cylinder meets the sphere about one of its ends, or another cylinder in line with it.
@@ -66,17 +99,18 @@ Point3 on_end_circle(const Terrain& terrain, double radius, const Surface::Edge&
   return center + radius * unit(v + (-dot(v, d)) * d);
 }
 
-Point3 on_rim(const Contact& c, double radius, Point3 near) {
-  Vector3 v = near - c.at;
+Point3 on_rim(const Contact<double>& c, double radius, Point3 near) {
+  const Point3 at(c.at);
+  Vector3 v = near - at;
   if (c.kind == FeatureKind::vertex) {
     v.z = 0;
-    return c.at + radius * unit(v);
+    return at + radius * unit(v);
   }
-  const Vector3 aside = unit({-c.direction.y, c.direction.x, 0});
+  const Vector3 aside = unit(Vector3{-c.direction.y, c.direction.x, 0});
   const double sign = dot(v, aside) < 0 ? -1 : 1;
   const double flat = std::hypot(c.direction.x, c.direction.y);
   const double along = (v.x * c.direction.x + v.y * c.direction.y) / (flat * flat);
-  return c.at + (along * c.direction + (sign * radius) * aside);
+  return at + (along * c.direction + (sign * radius) * aside);
 }
 
 }  // namespace
@@ -86,7 +120,7 @@ Curve curve_kind(const Terrain& terrain, const Surface::Edge& edge) {
     const Surface::Index upper = edge.feature[0] == Surface::none ? edge.feature[1] : edge.feature[0];
     return upper != Surface::none && terrain.feature_kind(upper) == FeatureKind::vertex ? Curve::circle : Curve::line;
   }
-  Contact a = contact_of(terrain, edge.feature[0]), b = contact_of(terrain, edge.feature[1]);
+  Contact<double> a = contact_of(terrain, edge.feature[0]), b = contact_of(terrain, edge.feature[1]);
   if (a.kind < b.kind) std::swap(a, b);  // face, edge, vertex
   if (edge.kind == Surface::EdgeKind::seam) return a.kind == FeatureKind::face ? Curve::line : Curve::circle;
   if (a.kind == FeatureKind::face) {
@@ -111,27 +145,19 @@ Point3 project_to_curve(const Terrain& terrain, double radius, const Surface::Ed
   }
   if (edge.kind == Surface::EdgeKind::seam && edge.curve == Curve::circle) return on_end_circle(terrain, radius, edge, near);
   if (edge.kind == Surface::EdgeKind::seam) return near;  // a straight line between its ends
-  // Newton's method towards the curve where both distances are R, by the shortest way.
-  const Contact a = contact_of(terrain, edge.feature[0]), b = contact_of(terrain, edge.feature[1]);
-  Point3 p = near;
-  for (int i = 0; i < 20; ++i) {
-    const Offset f = offset(a, radius, p), g = offset(b, radius, p);
-    const double fg = dot(f.gradient, g.gradient), det = 1 - fg * fg;
-    if (!(det > 1e-24)) break;
-    const double s = (f.value - fg * g.value) / det, t = (g.value - fg * f.value) / det;
-    const Vector3 step = (-s) * f.gradient + (-t) * g.gradient;
-    p = p + step;
-    if (length(step) <= 4e-16 * (std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z))) break;
-  }
-  return p;
+  double sine = 1;
+  const Point3 p = project_to_valley<double>(terrain, radius, edge, near, &sine);
+  // Where the surfaces are nearly tangent their distances have to be known better than doubles tell.
+  constexpr double nearly_tangent = 1e-4;
+  return sine < nearly_tangent ? project_to_valley<long double>(terrain, radius, edge, near) : p;
 }
 
 double height_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 p) {
   double nearest = std::numeric_limits<double>::infinity(), height = p.z;
   for (const Surface::Index feature : edge.feature) {
     if (feature == Surface::none) continue;
-    const Contact c = contact_of(terrain, feature);
-    const Vector3 v = p - c.at;
+    const Contact<double> c = contact_of(terrain, feature);
+    const Vector3 v = Vector3(p) - c.at;
     double h;
     if (c.kind == FeatureKind::face) {
       h = c.at.z + (radius - c.direction.x * v.x - c.direction.y * v.y) / c.direction.z;
