@@ -84,7 +84,7 @@ Point3 project_to_valley(const Terrain& terrain, double radius, const Surface::E
     p = p + step;
     if (length(step) <= precision * (std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z))) break;
   }
-  return Point3(p);
+  return length(p - Vector<Real>(near)) < radius ? Point3(p) : near;
 }
 
 /// The circle along which an edge's cylinder meets the sphere about one of its ends, or another cylinder in line with it.
@@ -102,6 +102,9 @@ Point3 on_end_circle(const Terrain& terrain, double radius, const Surface::Edge&
 Point3 on_rim(const Contact<double>& c, double radius, Point3 near) {
   const Point3 at(c.at);
   Vector3 v = near - at;
+  if (c.kind == FeatureKind::face) {  // nearly vertical: the cylinder beside it is too thin to show
+    return {near.x, near.y, at.z + (radius - c.direction.x * v.x - c.direction.y * v.y) / c.direction.z};
+  }
   if (c.kind == FeatureKind::vertex) {
     v.z = 0;
     return at + radius * unit(v);
@@ -150,6 +153,12 @@ Point3 project_to_curve(const Terrain& terrain, double radius, const Surface::Ed
   // Where the surfaces are nearly tangent their distances have to be known better than doubles tell.
   constexpr double nearly_tangent = 1e-4;
   return sine < nearly_tangent ? project_to_valley<long double>(terrain, radius, edge, near) : p;
+}
+
+bool is_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 p, double tolerance) {
+  return std::all_of(edge.feature.begin(), edge.feature.end(), [&](Surface::Index f) {
+    return f == Surface::none || std::fabs(offset(contact_of(terrain, f), radius, Vector3(p)).value) <= tolerance;
+  });
 }
 
 double height_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 p) {

@@ -10,6 +10,9 @@ Surface::Curve curve_kind(const Terrain& terrain, const Surface::Edge& edge);
 /// The point of the edge's curve next to one that is near it.
 Point3 project_to_curve(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 near);
 
+/// True if a ball about p touches what it touches along the edge, to within `tolerance`.
+bool is_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 p, double tolerance);
+
 /// Height of the ball's centre over the place of p when it rests on the edge's features; that of p where neither is below.
 double height_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 p);
 

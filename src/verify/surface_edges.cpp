@@ -98,8 +98,10 @@ class EdgeChecker {
       if (edge.kind == EdgeKind::seam)
         return double(length(foot_on(surface_.shape[edge.feature[0]], Space<T>(c)).at -
                              foot_on(surface_.shape[edge.feature[1]], Space<T>(c)).at));
+      // How far in the plane from where the normal would be horizontal.
       const Index f = edge.feature[edge.feature[0] == SurfaceCase::none];
-      return double(foot_on(surface_.shape[f], Space<T>(c)).at.z) - c.z;
+      const Space<T> away = Space<T>(c) - foot_on(surface_.shape[f], Space<T>(c)).at;
+      return double(length(away) - sqrt(away.x * away.x + away.y * away.y));
     };
     if (edge.kind == EdgeKind::valley) return 0;
     const double quick = std::abs(off(double{}));
