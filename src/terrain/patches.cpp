@@ -46,7 +46,8 @@ class NormalPolygon {
         const Vector3 u = cross(side_[i], side_[j]);
         const double l = length(u);
         if (!(l > 0)) continue;
-        for (const double sign : {1 / l, -1 / l}) add_corner({sign * u.x, sign * u.y, sign * u.z});
+        // Of two sides that are nearly parallel the corner is known the less.
+        for (const double sign : {1 / l, -1 / l}) add_corner({sign * u.x, sign * u.y, sign * u.z}, 1e-13 + 1e-15 / l);
       }
     }
     Vector3 middle{0, 0, 0}, inwards{0, 0, 0};
@@ -58,10 +59,10 @@ class NormalPolygon {
 
  private:
   static Vector3 sum(Vector3 v, Vector3 w) { return {v.x + w.x, v.y + w.y, v.z + w.z}; }
-  void add_corner(Vector3 u) {
-    if (corners_ >= most || u.z < -1e-13) return;
+  void add_corner(Vector3 u, double slack) {
+    if (corners_ >= most || u.z < -slack) return;
     for (int i = 0; i < count_; ++i) {
-      if (dot(u, direction_[i]) > 1e-13) return;
+      if (dot(u, direction_[i]) > slack) return;
     }
     corner_[corners_++] = u;
   }
