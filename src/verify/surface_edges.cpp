@@ -84,11 +84,21 @@ class EdgeChecker {
       const T off = root(square(up) + foot.outside * foot.outside) - T(surface_.radius);
       // The ball lies on what it touches.
       worst = std::max({worst, std::abs(double(off)), -double(up.z)});
-      outside = std::max(outside, double(foot.outside));
+      outside = std::max(outside, double(foot.outside) * in_plan(surface_.shape[f], up));
       normal[count++] = T(1) / T(surface_.radius) * up;
     }
     if (count == 2) turn = std::min(1.0, double(length(normal[0] - normal[1])));
     return std::max(worst, outside * turn);
+  }
+
+  /// How far the ball moves in the plane, at least, for each unit that the touched point moves along an edge: near a wall a steep
+  /// edge's touched point runs along it while the ball hardly moves.
+  template <class T>
+  static double in_plan(const Shape& shape, const Space<T>& up) {
+    if (shape.count != 2) return 1;
+    const Vec3 d = Vec3(shape.at[1]) - Vec3(shape.at[0]);
+    const double rise = d.z * double(length(up)), level = double(up.z) * length(d);
+    return level > 0 ? level / std::hypot(level, rise) : 1;
   }
 
   /// Along a seam both features are touched at the same place, along a rim the ball touches with its equator. Distances
