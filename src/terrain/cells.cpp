@@ -255,6 +255,31 @@ bool Cells::curve_is_simple(const Turn& t, const Box& box) const {
   return false;
 }
 
+/// True if a wall between two turns stays one: where the lower patch reaches its height the two meet in a valley.
+///
+/// The lower patch is concave, so its tangents at the two ends bound it.
+bool Cells::stays_wall(const Turn& from, const Turn& to, const Box& box) const {
+  if (from.meeting != Meeting::rim || from.before == none || from.after == none || is_thin_bend(from.before, from.after, box)) return true;
+  const Index upper = is_wall_of(from, from.before) ? from.before : from.after, lower = upper == from.before ? from.after : from.before;
+  const PatchSet& patches = envelope_.patches();
+  if (patches[upper].kind == Terrain::FeatureKind::face) return true;
+  const double dx = to.at.x - from.at.x, dy = to.at.y - from.at.y;
+  const bool round = patches[upper].kind == Terrain::FeatureKind::vertex;
+  const double sagitta = round ? (dx * dx + dy * dy) / (4 * patches.radius()) : 0;
+  const Gradient wall = envelope_.rim_gradient(upper);
+  double steepest = 0, excess[2], slope[2];  // of the lower patch over the wall, and how fast it grows on the way to the other end
+  for (const int end : {0, 1}) {
+    const Point p = end == 0 ? from.at : to.at;
+    const Gradient g = patches.gradient(lower, p), d{g.x - wall.x, g.y - wall.y};
+    excess[end] = envelope_.clamped_height(lower, p) - envelope_.rim_height(upper, p) + size(d) * sagitta;
+    slope[end] = (end == 0 ? 1 : -1) * (d.x * dx + d.y * dy);
+    steepest = std::max(steepest, size(d));
+  }
+  double most = std::max(excess[0], excess[1]);
+  if (slope[0] > 0 && slope[1] > 0) most = std::max(most, excess[0] + slope[0] * (excess[1] - excess[0] + slope[1]) / (slope[0] + slope[1]));
+  return most <= 64 * envelope_.tolerance() * (1 + steepest);
+}
+
 bool Cells::are_coplanar(Index a, Index b, const Box& box) const {
   const PatchSet& patches = envelope_.patches();
   if (patches[a].kind != Terrain::FeatureKind::face || patches[b].kind != Terrain::FeatureKind::face) return false;
@@ -267,7 +292,7 @@ bool Cells::are_coplanar(Index a, Index b, const Box& box) const {
 bool Cells::settle_arc(const Box& box, bool smallest) {
   const Turn &a = turns_[0], &b = turns_[1];
   if (a.meeting != b.meeting) return settle_star(box, smallest);  // where a valley ends in a wall
-  if (!smallest && !curve_is_simple(a, box)) return false;
+  if (!smallest && !(curve_is_simple(a, box) && stays_wall(a, b, box))) return false;
   connect(a, b);
   return true;
 }
@@ -361,7 +386,7 @@ bool Cells::settle_strips(const Box& box) {
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    if (mate[i] < 0 || !curve_is_simple(turns_[i], box)) return false;
+    if (mate[i] < 0 || !curve_is_simple(turns_[i], box) || !stays_wall(turns_[i], turns_[std::size_t(mate[i])], box)) return false;
     for (std::size_t j = 0; j < i; ++j) {
       const int a = std::min(int(i), mate[i]), b = std::max(int(i), mate[i]);
       const bool in1 = a < int(j) && int(j) < b, in2 = a < mate[j] && mate[j] < b;

@@ -112,6 +112,7 @@ class Cells {
   bool has_corner(Index patch, Point p) const;
   bool share_corner(Index a, Index b, Point p) const;
   bool curve_is_simple(const Turn& turn, const Box& box) const;
+  bool stays_wall(const Turn& from, const Turn& to, const Box& box) const;
   bool are_coplanar(Index a, Index b, const Box& box) const;
   bool sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const;
   bool shows_all(const Cell& cell, std::span<const Index> candidates);

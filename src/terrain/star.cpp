@@ -208,6 +208,12 @@ std::optional<Point> Cells::star_point(const Box& box) const {
   const Condition &c = condition[first], &d = condition[second];
   const std::optional<Point> p = solve(c, d, middle);
   if (!p || !all_reach(*p)) return std::nullopt;
+  for (const Turn& t : turns_) {  // walls that are none here
+    if (t.meeting != Meeting::rim || t.before == none || t.after == none) continue;
+    const Index upper = is_wall_of(t, t.before) ? t.before : t.after, lower = upper == t.before ? t.after : t.before;
+    const double slack = 4 * tolerance * (1 + size(patches.gradient(lower, *p)));
+    if (envelope_.rim_at(lower, *p) == nullptr && envelope_.border_height(lower, *p) > envelope_.rim_height(upper, *p) + slack) return std::nullopt;
+  }
   for (const Condition& k : std::span(condition.data(), n)) {
     double scale = 1;
     if (k.bound != nullptr && k.bound->type == Bound::Type::disc) scale = 2 * radius;
