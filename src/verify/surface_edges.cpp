@@ -108,10 +108,11 @@ class EdgeChecker {
       if (edge.kind == EdgeKind::seam)
         return double(length(foot_on(surface_.shape[edge.feature[0]], Space<T>(c)).at -
                              foot_on(surface_.shape[edge.feature[1]], Space<T>(c)).at));
-      // How far in the plane from where the normal would be horizontal.
       const Index f = edge.feature[edge.feature[0] == SurfaceCase::none];
       const Space<T> away = Space<T>(c) - foot_on(surface_.shape[f], Space<T>(c)).at;
-      return double(length(away) - sqrt(away.x * away.x + away.y * away.y));
+      // A face has no equator: how far in the plane it ends from where the cylinder beside it would.
+      if (surface_.shape[f].count == 3) return double(length(away) - root(away.x * away.x + away.y * away.y));
+      return double(away.z);
     };
     if (edge.kind == EdgeKind::valley) return 0;
     const double quick = std::abs(off(double{}));
