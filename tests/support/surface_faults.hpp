@@ -16,15 +16,12 @@ struct SurfaceEffort {
 };
 
 /// Computes the surface of a small case and says what is wrong with it, by brute force:
-///  - it is computed at all, within a time and a number of edges that a few triangles justify, and validate() and so
-///  Euler's
+///  - it is computed at all, within a time and a number of edges that a few triangles justify, and validate() and so Euler's
 ///    formula hold;
-///  - along each edge and at its ends the ball touches both features (at a seam at one place, at a rim with its
-///  equator) and
-///    cuts into nothing;
+///  - along each edge and at its ends the ball touches both features (at a seam at one place, at a rim with its equator)
+///    and cuts into nothing;
 ///  - edges end in their vertices;
-///  - across each of some lines, curves come in an order that fits their faces, and between them the face's feature is
-///  the
+///  - across each of some lines, curves come in an order that fits their faces, and between them the face's feature is the
 ///    highest.
 /// Nothing if it is right.
 std::optional<std::string> fault_in(const SmallTerrain& c, const SurfaceEffort& effort = {});
