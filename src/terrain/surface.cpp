@@ -52,7 +52,9 @@ std::vector<Point3> Surface::curve(Index e, int points) const {
     const double t = length > 0 ? std::clamp((wanted - passed) / length, 0.0, 1.0) : 0.0;
     const Point3 p = base[piece - 1], q = base[piece];
     const Point3 near{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)};
-    curve.push_back(edge.curve == Curve::line ? near : terrain::project_to_curve(*terrain_, radius_, edge, near));
+    Point3 on_curve = edge.curve == Curve::line ? near : terrain::project_to_curve(*terrain_, radius_, edge, near);
+    if (distance(on_curve, near) > whole) on_curve = near;  // too short for its surfaces to be told apart
+    curve.push_back(on_curve);
   }
   curve.push_back(base.back());
   return curve;
