@@ -18,6 +18,7 @@ constexpr double along_weight = 1e-6;
 
 /// Twice the area of a triangle, seen from above and in terms of the square of a side, below which it is as good as none.
 constexpr double negligible = 1e-7;
+constexpr int most_sides = 100;
 
 }  // namespace
 
@@ -68,13 +69,51 @@ bool PatchMesh::should_flip(Index side) const {
   const Index other = opposite_[side];
   if (other == none) return false;
   const Index a = corner_[side], b = corner_[next(side)], c = corner_[previous(side)], d = corner_[previous(other)];
-  if (c == d || turn(a, d, c) <= 0 || turn(d, b, c) <= 0) return false;
+  if (c == d) return false;
+  if (narrow_) return should_flip_needles(a, b, c, d) && !may_reach(side, d);
+  if (turn(a, d, c) <= 0 || turn(d, b, c) <= 0) return false;
   if (turn(a, b, c) <= 0 || turn(b, a, d) <= 0) return true;
   const double now = std::min(area(a, b, c), area(b, a, d)), then = std::min(area(a, d, c), area(d, b, c));
   if (!(then > thinnest * now && cost(c, d) < clearly_shorter * cost(a, b))) return false;
   // A flip that made a side too long would be undone by halving it, and so on without end.
   const double flipped = patch_.curved_square(points_[c], points_[d]);
   return patch_.sagitta(flipped) <= limit_ || flipped <= patch_.curved_square(points_[a], points_[b]);
+}
+
+bool PatchMesh::is_needle(Index a, Index b, Index c) const {
+  const Point3 p = points_[a], q = points_[b], r = points_[c];
+  const auto square = [](Point3 v, Point3 w) { return (v.x - w.x) * (v.x - w.x) + (v.y - w.y) * (v.y - w.y); };
+  return std::fabs(area(a, b, c)) <= negligible * std::max({square(p, q), square(q, r), square(r, p)});
+}
+
+/// Where the view from above tells nothing, as between points in one line, what counts is that sides become shorter in space.
+bool PatchMesh::should_flip_needles(Index a, Index b, Index c, Index d) const {
+  if (!is_needle(a, b, c) || !is_needle(b, a, d)) return false;
+  const int folded = (turn(a, b, c) < 0) + (turn(b, a, d) < 0);
+  if ((turn(a, d, c) < 0) + (turn(d, b, c) < 0) > folded) return false;
+  const double flipped = patch_.curved_square(points_[c], points_[d]);
+  return flipped < clearly_shorter * patch_.curved_square(points_[a], points_[b]) && is_curved(a, b);
+}
+
+bool PatchMesh::is_curved(Index a, Index b) const {
+  return patch_.sagitta(patch_.curved_square(points_[a], points_[b])) > limit_;
+}
+
+/// False if the corner across `side` is joined to d by no side: a second one would be of four triangles. Of a corner with very
+/// many sides that is not asked.
+bool PatchMesh::may_reach(Index side, Index d) const {
+  const Index start = previous(side);
+  Index s = start;
+  int left = most_sides;
+  do {
+    if (corner_[next(s)] == d || corner_[previous(s)] == d || --left == 0) return true;
+    s = opposite_[previous(s)];
+  } while (s != none && s != start);
+  if (s == start) return false;
+  for (s = opposite_[start]; s != none; s = opposite_[next(s)]) {
+    if (corner_[s] == d || corner_[previous(s)] == d || --left == 0) return true;
+  }
+  return false;
 }
 
 /// Triangles a b c and b a d become d c a and c d b.
@@ -103,12 +142,13 @@ void PatchMesh::settle() {
 bool PatchMesh::is_too_long(Index side) const {
   if (opposite_[side] == none) return false;
   const Point3 a = points_[corner_[side]], b = points_[corner_[next(side)]];
-  if (patch_.sagitta(patch_.curved_square(a, b)) <= limit_) return false;
-  // Beside a border chord that is too long itself, triangles would become thinner without end.
-  const Index c = corner_[previous(side)], d = corner_[previous(opposite_[side])];
-  const double seen = std::max(std::fabs(area(corner_[side], corner_[next(side)], c)),
-                               std::fabs(area(corner_[side], corner_[next(side)], d)));
-  if (seen <= negligible * patch_.curved_square(a, b)) return false;
+  if (!is_curved(corner_[side], corner_[next(side)])) return false;
+  // Needles are left for later, when no flip can bring them back.
+  const Index p = corner_[side], q = corner_[next(side)];
+  if (!narrow_ && is_needle(p, q, corner_[previous(side)]) && is_needle(q, p, corner_[previous(opposite_[side])])) return false;
+  // Beside a border chord that is too long itself, needles would become thinner without end.
+  for (const Index s : {next(side), previous(side), next(opposite_[side]), previous(opposite_[side])})
+    if (narrow_ && opposite_[s] == none && is_curved(corner_[s], corner_[next(s)])) return false;
   const double x = (a.x + b.x) / 2, y = (a.y + b.y) / 2;
   return !(x == a.x && y == a.y) && !(x == b.x && y == b.y);
 }
@@ -141,10 +181,21 @@ void PatchMesh::refine(double max_error) {
   if (patch_.kind() == Terrain::FeatureKind::face) return;
   // The circumscribed circle of a triangle on a sphere can be larger than its sides alone tell, by a third in the deviation.
   limit_ = patch_.kind() == Terrain::FeatureKind::vertex ? 0.75 * max_error : max_error;
+  halve_all();
+  narrow_ = true;
+  for (Index s = 0; s < corner_.size(); ++s) doubtful_.push_back(s);
+  settle();
+  halve_all();
+}
+
+/// Needles beside a border chord that is too long itself would become thinner without end: then deviation() says so.
+void PatchMesh::halve_all() {
+  const std::size_t most_points = 4 * points_.size() + 1000;
   for (bool changed = true; changed;) {
     changed = false;
     for (Index s = 0; s < corner_.size(); ++s) {
       if (!is_too_long(s)) continue;
+      if (narrow_ && points_.size() >= most_points) return;
       halve(s);
       settle();
       changed = true;

@@ -40,16 +40,22 @@ class PatchMesh {
 
   void connect();
   void pair(Index side, Index other);
+  bool is_needle(Index a, Index b, Index c) const;
+  bool may_reach(Index side, Index d) const;
+  bool is_curved(Index a, Index b) const;
+  bool should_flip_needles(Index a, Index b, Index c, Index d) const;
   bool should_flip(Index side) const;
   void flip(Index side);
   void settle();
   bool is_too_long(Index side) const;
   void halve(Index side);
+  void halve_all();
 
   const SurfacePatch& patch_;
   std::vector<Point3> points_;
   std::vector<Index> corner_, opposite_;
   std::vector<Index> doubtful_;  // sides that may have to be flipped
+  bool narrow_ = false;  // flips and halves only where the view from above tells nothing
   double limit_ = std::numeric_limits<double>::infinity();  // of a side's height above its chord
 };
 

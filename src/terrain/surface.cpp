@@ -32,7 +32,7 @@ std::vector<Point3> Surface::curve(Index e, int points) const {
     if (terrain::is_on_edge(*terrain_, radius_, edge, *end, 0x1p-34 * scale)) continue;  // on steep patches heights alone say little
     const double z = edge.kind == EdgeKind::rim ? terrain::project_to_curve(*terrain_, radius_, edge, *end).z
                                                 : terrain::height_on_edge(*terrain_, radius_, edge, *end);
-    if (std::fabs(z - end->z) > 1e-7 * scale) end->z = z;
+    end->z = z;
   }
   const auto distance = [](Point3 p, Point3 q) { return std::hypot(p.x - q.x, p.y - q.y, p.z - q.z); };
   double whole = 0;
