@@ -21,7 +21,7 @@ double distance(Point a, Point b, Point c, Point d) {
 }  // namespace
 
 Cells::Cells(const PatchSet& patches, double scale, SurfaceCounters& counters, const Context& context)
-    : envelope_(patches, scale, counters), counters_(counters), context_(context) {}
+    : envelope_(patches, scale, counters), counters_(counters), context_(context), far_(patches.radius() >= scale) {}
 
 Index Cells::add_line(bool vertical, double at, Index start_label, const std::vector<Envelope::Crossing>& crossings) {
   const Index first = Index(crossings_.size());
@@ -114,73 +114,17 @@ bool Cells::subdivide(const Cell& cell, std::size_t first, int depth) {
   }
   const bool smallest = cell.box.larger_side() <= envelope_.smallest_cell();
   bool done = true;
-  if ((!smallest && stack_.size() - begin > 24) || !settle(cell, {stack_.data() + begin, stack_.size() - begin}, smallest)) {
+  const std::size_t left = stack_.size() - begin;
+  if ((!smallest && left > most_settled) || !settle(cell, {stack_.data() + begin, left}, smallest)) {
     done = split(cell, begin, depth);
   }
   stack_.resize(begin);
   return done;
 }
 
-/// Between the corners of patches in the cell, which are vertices mostly, or else near the middle of the longer sides. Exactly in the
-/// middle is often a line of symmetry, along which curves run.
-Cells::Cut Cells::cut(const Box& box, std::span<const Index> candidates) {
-  constexpr double near_middle = 0.48717, uneven = 0.4641;
-  const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
-  Cut best{width >= height, 0};
-  best.at = best.vertical ? box.low.x + near_middle * width : box.low.y + near_middle * height;
-  if (candidates.size() > 24) return best;
-  for (std::vector<double>& t : corner_place_) t.clear();
-  for (const Index c : candidates) {
-    for (const Point p : envelope_.patches().corners(c)) {
-      if (!(p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y)) continue;
-      corner_place_[0].push_back(p.x);
-      corner_place_[1].push_back(p.y);
-    }
-  }
-  add_likely_vertices(box);
-  if (corner_place_[0].size() < 2) return best;
-  // The widest gap, but none that makes long thin cells.
-  double widest = std::max(width, height) / 32;
-  for (const bool vertical : {true, false}) {
-    const double low = vertical ? box.low.x : box.low.y, high = vertical ? box.high.x : box.high.y;
-    const double across = vertical ? height : width;
-    std::vector<double>& t = corner_place_[vertical ? 0 : 1];
-    std::sort(t.begin(), t.end());
-    const auto consider = [&](double gap, double at) {
-      if (gap > widest && 8 * std::min(at - low, high - at) > across) widest = gap, best = {vertical, at};
-    };
-    for (std::size_t i = 1; i < t.size(); ++i) consider(t[i] - t[i - 1], t[i - 1] + uneven * (t[i] - t[i - 1]));
-  }
-  return best;
-}
-
-/// Where seams meet the one valley through the cell, as if that were straight.
-void Cells::add_likely_vertices(const Box& box) {
-  const Turn* valley[2] = {nullptr, nullptr};
-  int count = 0;
-  for (const Turn& t : turns_) {
-    if (t.meeting != Meeting::valley) continue;
-    if (count == 2) return;
-    valley[count++] = &t;
-  }
-  if (count < 2) return;
-  const PatchSet& patches = envelope_.patches();
-  const Point p = valley[0]->at, q = valley[1]->at;
-  for (const Turn& t : turns_) {
-    const Bound* seam = t.meeting == Meeting::seam ? patches.seam(t.before, t.after) : nullptr;
-    if (seam == nullptr) continue;
-    const double a = seam->value(p, patches.square_radius()), b = seam->value(q, patches.square_radius());
-    if ((a < 0) == (b < 0)) continue;
-    const Point v{p.x + a / (a - b) * (q.x - p.x), p.y + a / (a - b) * (q.y - p.y)};
-    if (!(v.x > box.low.x && v.x < box.high.x && v.y > box.low.y && v.y < box.high.y)) continue;
-    corner_place_[0].push_back(v.x);
-    corner_place_[1].push_back(v.y);
-  }
-}
-
 bool Cells::split(const Cell& cell, std::size_t first, int depth) {
   const Box& box = cell.box;
-  const Cut where = cut(box, {stack_.data() + first, stack_.size() - first});
+  const Cut where = cut(cell, {stack_.data() + first, stack_.size() - first});
   const bool vertical = where.vertical;
   const Side &low_side = cell.side[vertical ? 0 : 3], &high_side = cell.side[vertical ? 2 : 1];
   const double low = vertical ? box.low.x : box.low.y, high = vertical ? box.high.x : box.high.y;
@@ -237,9 +181,34 @@ void Cells::connect(const Turn& a, const Turn& b) {
   crossings_[b.crossing].link[b.side] = Link::crossing(a.crossing, a.side);
 }
 
+/// True if two patches cannot be equally high along a closed curve in the box. Inside it their heights would differ most where
+/// they have one normal, so that what the ball touches there is at one place in the plane. Of two spheres and of a sphere and a
+/// cylinder this is so nowhere, or all along an arc from rim to rim; of two cylinders it is a saddle, since each is straight in
+/// one direction; of a plane and a cylinder it is so nowhere or along a line. A plane can cut a cap off a sphere.
+bool Cells::cannot_close(Index a, Index b, const Box& box) const {
+  using Kind = Terrain::FeatureKind;
+  const PatchSet& patches = envelope_.patches();
+  if (a == none || b == none) return false;
+  for (const Index l : {a, b}) {
+    if (!patches[l].has_rim) continue;
+    for (const Bound& side : patches.bounds(l)) {
+      if (!side.rim || envelope_.covers(side, box)) continue;
+      if (!far_ || !envelope_.stay_apart(l, l == a ? b : a, none, box)) return false;
+    }
+  }
+  if (patches[a].kind != Kind::face && patches[b].kind != Kind::face) return true;
+  if (patches[a].kind == Kind::edge || patches[b].kind == Kind::edge) return true;
+  if (patches[a].kind == patches[b].kind) return false;
+  const Patch &face = patches[patches[a].kind == Kind::face ? a : b], &sphere = patches[patches[a].kind == Kind::face ? b : a];
+  const double reach = patches.radius() / face.q, slack = envelope_.smallest_cell();
+  const Point top{sphere.at.x - face.gx * reach, sphere.at.y - face.gy * reach};
+  return !Box{{box.low.x - slack, box.low.y - slack}, {box.high.x + slack, box.high.y + slack}}.contains(top);
+}
+
 /// True if the curve between the turn's labels cannot close inside the box: some direction is never along it.
 bool Cells::curve_is_simple(const Turn& t, const Box& box) const {
   if (t.meeting != Meeting::valley || is_thin_bend(t.before, t.after, box)) return box.larger_side() < envelope_.patches().radius();
+  if (cannot_close(t.before, t.after, box)) return true;
   const auto never_along = [&](double x, double y) {
     return (envelope_.derivative_range(t.before, box, {x, y}) - envelope_.derivative_range(t.after, box, {x, y})).excludes_zero();
   };
@@ -402,6 +371,17 @@ bool Cells::settle_strips(const Box& box) {
     if (t.meeting == Meeting::rim && s.meeting == Meeting::valley && wall_stays_above(t, t_end, s)) return true;
     for (const Turn* turn : {&s, &t}) {
       if (turn->meeting != Meeting::valley && (corner_in(turn->before, box) || corner_in(turn->after, box))) return false;
+    }
+    if (far_) {
+      for (const Index l : {s.before, s.after}) {
+        if (l == none || (l != t.before && l != t.after)) continue;
+        const auto beyond = [&](const Turn& turn) {
+          if (turn.meeting == Meeting::rim) return none;
+          return turn.before == l ? turn.after : turn.before;
+        };
+        if ((s.meeting == Meeting::rim && !is_wall_of(s, l)) || (t.meeting == Meeting::rim && !is_wall_of(t, l))) continue;
+        if (envelope_.stay_apart(l, beyond(s), beyond(t), box)) return true;
+      }
     }
     // Closer than the tolerance they may touch: a seam and a valley that are tangent.
     const double room = std::max(distance(s.at, s_end.at, t.at, t_end.at), envelope_.tolerance());

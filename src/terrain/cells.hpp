@@ -91,8 +91,13 @@ class Cells {
     double at;
   };
 
+  static constexpr std::size_t most_settled = 24;  // candidates; cells with more are cut at once
+
   bool subdivide(const Cell& cell, std::size_t first, int depth);
-  Cut cut(const Box& box, std::span<const Index> candidates);
+  Cut cut(const Cell& cell, std::span<const Index> candidates);
+  Gradient steepness(const Box& box) const;
+  std::optional<Cut> cut_between_strips(const Cell& cell);
+  std::optional<Cut> cut_beside_wall(const Box& box) const;
   void add_likely_vertices(const Box& box);
   bool split(const Cell& cell, std::size_t first, int depth);
   void walk(const Cell& cell);
@@ -113,6 +118,7 @@ class Cells {
   bool share_corner(Index a, Index b, Point p) const;
   bool curve_is_simple(const Turn& turn, const Box& box) const;
   bool stays_wall(const Turn& from, const Turn& to, const Box& box) const;
+  bool cannot_close(Index a, Index b, const Box& box) const;
   bool are_coplanar(Index a, Index b, const Box& box) const;
   bool sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const;
   bool shows_all(const Cell& cell, std::span<const Index> candidates);
@@ -133,6 +139,7 @@ class Cells {
   Envelope envelope_;
   SurfaceCounters& counters_;
   const Context& context_;
+  bool far_;  // R is at least the extent
   std::vector<CellLine> lines_;
   std::vector<Crossing> crossings_;
   std::vector<Vertex> vertices_;

@@ -19,6 +19,7 @@ Envelope::Envelope(const PatchSet& patches, double scale, SurfaceCounters& count
       noise_(0x1p-49 * scale),
       rim_width_(2 * tolerance_),
       least_up_(std::sqrt(2 * patches.radius() * tolerance_)),
+      far_(patches.radius() >= scale),
       counters_(counters) {}
 
 Index Envelope::winner(Point p, std::span<const Index> candidates) const {

@@ -58,6 +58,8 @@ class Envelope {
 
   /// True if the patch rises nowhere in the box above the upper ones' bodies by more than the tolerance.
   bool hidden_within_tolerance(Index patch, std::span<const Index> uppers, const Box& box) const;
+  /// True if the curves between a patch and two others certainly do not meet in the box.
+  bool stay_apart(Index patch, Index first, Index second, const Box& box) const;
   /// False if the patch's domain certainly does not reach into the box by more than matters.
   bool domain_meets(Index patch, const Box& box) const;
   /// True if all of the box lies on the patch's side of the bound.
@@ -122,6 +124,14 @@ class Envelope {
   bool lies_in(Index lower, Index upper) const;
   bool hidden_beside(Index lower, Index upper, const BoxFrame& frame) const;
   bool hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const;
+  struct Vector {
+    double x, y, z;
+  };
+  std::size_t contacts(Index patch, const Box& box, Vector* out) const;
+  std::size_t normals(Index patch, const Box& box, Vector* out) const;
+  bool hidden_by_balls(Index patch, std::span<const Index> labels, const Box& box) const;
+  bool curve_function(Index own, Index other, std::span<const Vector> places, std::span<const Vector> normals, double* value,
+                      double& slack) const;
   bool back_to_back(const Bound& a, const Bound& b, const Box& box) const;
   bool domain_covers(Index patch, const BoxFrame& box) const;
   bool domain_meets(Index patch, const BoxFrame& box) const;
@@ -130,6 +140,7 @@ class Envelope {
 
   const PatchSet& patches_;
   double tolerance_, smallest_cell_, smallest_stretch_, noise_, rim_width_, least_up_;
+  bool far_;  // R is at least the extent
   SurfaceCounters& counters_;
   std::vector<Index> stack_, kept_;
   std::vector<Crossing>* out_ = nullptr;

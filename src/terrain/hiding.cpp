@@ -450,11 +450,13 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
     others = others || !seen;
     out.push_back(c);
   }
-  if (!small || !others) return;
+  if ((!small && !far_) || !others) return;
 
   Cover cover(*this, frame, champions);
   const auto is_hidden = [&](Index c) {
-    if (cover.hides(c, support(c, frame))) return true;
+    if (small && cover.hides(c, support(c, frame))) return true;
+    if (far_ && hidden_by_balls(c, champions, box)) return true;
+    if (!small) return false;
     for (const Index k : champions) {
       if (hidden_beside(c, k, frame) || hidden_below_face(c, k, frame) || lies_in(c, k)) return true;
     }
@@ -477,6 +479,7 @@ bool Envelope::stays_hidden(Index c, const Box& box, std::span<const Index> labe
   if (!domain_meets(c, frame)) return true;
   Cover cover(*this, frame, labels);
   if (cover.hides(c, support(c, frame))) return true;
+  if (far_ && hidden_by_balls(c, labels, part)) return true;
   if (depth == 0) return false;
   Box first = part, second = part;
   if (frame.hx > frame.hy) first.high.x = second.low.x = frame.mid.x;

@@ -267,6 +267,20 @@ TEST(Surface, FarFromTheOriginAndScaled) {
   }
 }
 
+/// Strips that are R long and an edge wide, and borders whose rims lie in one line: they take few cells nevertheless.
+TEST(Surface, RadiusFarAboveTheExtent) {
+  std::mt19937 next(11);
+  const auto rough = grid(20, 16, [&](int, int) { return double(next() % 1024) / 128; });
+  for (const double extents : {1.5, 3.0, 10.0, 100.0}) {
+    const double radius = extents * rough->extent();
+    expect_true(rough, radius, 9, "rough");
+    const auto surface = compute_surface(rough, {radius});
+    ASSERT_TRUE(surface);
+    EXPECT_LT(surface->counters().cells, 100 * rough->triangle_count()) << extents << " extents";
+    EXPECT_LT(surface->subdivision().edge_count(), rough->triangle_count()) << extents << " extents";
+  }
+}
+
 TEST(Surface, SameFromAnyNumberOfThreads) {
   std::mt19937 next(7);
   const auto t = grid(120, 110, [&](int, int) { return double(next() % 6); });
