@@ -17,7 +17,7 @@ bool Cells::shows_all(const Cell& cell, std::span<const Index> candidates) {
   std::optional<bool> prisms;
   for (const Index c : candidates) {
     if (is_seen(c) || is_hidden(c, cell.box)) continue;
-    if (cell.box.larger_side() > envelope_.patches().radius() / 32) return false;
+    if (cell.box.larger_side() > envelope_.patches().radius() / 128) return false;
     if (is_thin(c, none, none, cell.box, envelope_.tolerance()) || is_tangent_sliver(c, cell.box) || envelope_.hidden_within_tolerance(c, seen_, cell.box)) continue;
     if (!prisms) prisms = all_are_prisms(candidates, cell.box);
     if (!*prisms) return false;
