@@ -207,10 +207,12 @@ bool Cells::cannot_close(Index a, Index b, const Box& box) const {
 
 /// True if the curve between the turn's labels cannot close inside the box: some direction is never along it.
 bool Cells::curve_is_simple(const Turn& t, const Box& box) const {
-  if (t.meeting != Meeting::valley || is_thin_bend(t.before, t.after, box)) return box.larger_side() < envelope_.patches().radius();
+  if (t.meeting != Meeting::valley || is_thin_bend(t.before, t.after, box))
+    return box.larger_side() < envelope_.patches().radius();
   if (cannot_close(t.before, t.after, box)) return true;
   const auto never_along = [&](double x, double y) {
-    return (envelope_.derivative_range(t.before, box, {x, y}) - envelope_.derivative_range(t.after, box, {x, y})).excludes_zero();
+    return (envelope_.derivative_range(t.before, box, {x, y}) - envelope_.derivative_range(t.after, box, {x, y}))
+        .excludes_zero();
   };
   if (never_along(1, 0) || never_along(0, 1) || never_along(1, 1) || never_along(1, -1)) return true;
   // Of two faces in one plane the first one shows wherever it is: along its straight sides.
@@ -228,15 +230,19 @@ bool Cells::curve_is_simple(const Turn& t, const Box& box) const {
 ///
 /// The lower patch is concave, so its tangents at the two ends bound it.
 bool Cells::stays_wall(const Turn& from, const Turn& to, const Box& box) const {
-  if (from.meeting != Meeting::rim || from.before == none || from.after == none || is_thin_bend(from.before, from.after, box)) return true;
-  const Index upper = is_wall_of(from, from.before) ? from.before : from.after, lower = upper == from.before ? from.after : from.before;
+  if (from.meeting != Meeting::rim || from.before == none || from.after == none ||
+      is_thin_bend(from.before, from.after, box))
+    return true;
+  const Index upper = is_wall_of(from, from.before) ? from.before : from.after,
+              lower = upper == from.before ? from.after : from.before;
   const PatchSet& patches = envelope_.patches();
   if (patches[upper].kind == Terrain::FeatureKind::face) return true;
   const double dx = to.at.x - from.at.x, dy = to.at.y - from.at.y;
   const bool round = patches[upper].kind == Terrain::FeatureKind::vertex;
   const double sagitta = round ? (dx * dx + dy * dy) / (4 * patches.radius()) : 0;
   const Gradient wall = envelope_.rim_gradient(upper);
-  double steepest = 0, excess[2], slope[2];  // of the lower patch over the wall, and how fast it grows on the way to the other end
+  double steepest = 0, excess[2],
+         slope[2];  // of the lower patch over the wall, and how fast it grows on the way to the other end
   for (const int end : {0, 1}) {
     const Point p = end == 0 ? from.at : to.at;
     const Gradient g = patches.gradient(lower, p), d{g.x - wall.x, g.y - wall.y};
@@ -245,7 +251,8 @@ bool Cells::stays_wall(const Turn& from, const Turn& to, const Box& box) const {
     steepest = std::max(steepest, size(d));
   }
   double most = std::max(excess[0], excess[1]);
-  if (slope[0] > 0 && slope[1] > 0) most = std::max(most, excess[0] + slope[0] * (excess[1] - excess[0] + slope[1]) / (slope[0] + slope[1]));
+  if (slope[0] > 0 && slope[1] > 0)
+    most = std::max(most, excess[0] + slope[0] * (excess[1] - excess[0] + slope[1]) / (slope[0] + slope[1]));
   return most <= 64 * envelope_.tolerance() * (1 + steepest);
 }
 
@@ -275,7 +282,9 @@ bool Cells::is_wall_of(const Turn& turn, Index label) const {
 
 /// True if the curves of both turns are sides of one patch, which lies between them.
 bool Cells::sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const {
-  const auto is_side = [&](const Turn& turn) { return turn.meeting != Meeting::valley || is_thin_bend(turn.before, turn.after, box); };
+  const auto is_side = [&](const Turn& turn) {
+    return turn.meeting != Meeting::valley || is_thin_bend(turn.before, turn.after, box);
+  };
   if (!is_side(s) || !is_side(t)) return false;
   for (const Index l : {s.before, s.after}) {
     if (l == none || (l != t.before && l != t.after)) continue;
@@ -309,7 +318,8 @@ bool Cells::corner_in(Index patch, const Box& box) const {
   if (patch == none) return false;
   const double slack = envelope_.smallest_cell();
   for (const Point c : envelope_.patches().corners(patch)) {
-    if (c.x >= box.low.x - slack && c.x <= box.high.x + slack && c.y >= box.low.y - slack && c.y <= box.high.y + slack) return true;
+    if (c.x >= box.low.x - slack && c.x <= box.high.x + slack && c.y >= box.low.y - slack && c.y <= box.high.y + slack)
+      return true;
   }
   return false;
 }
@@ -355,7 +365,8 @@ bool Cells::settle_strips(const Box& box) {
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    if (mate[i] < 0 || !curve_is_simple(turns_[i], box) || !stays_wall(turns_[i], turns_[std::size_t(mate[i])], box)) return false;
+    if (mate[i] < 0 || !curve_is_simple(turns_[i], box) || !stays_wall(turns_[i], turns_[std::size_t(mate[i])], box))
+      return false;
     for (std::size_t j = 0; j < i; ++j) {
       const int a = std::min(int(i), mate[i]), b = std::max(int(i), mate[i]);
       const bool in1 = a < int(j) && int(j) < b, in2 = a < mate[j] && mate[j] < b;
@@ -421,15 +432,16 @@ bool Cells::settle_star(const Box& box, bool smallest) {
   return true;
 }
 
-/// Where the patches around the smallest cell come closest in height, of the places known there: near walls the middle can be far
-/// off in height.
+/// Where the patches around the smallest cell come closest in height, of the places known there: near walls the middle
+/// can be far off in height.
 Point Cells::least_gap(const Box& box) const {
   Point best = box.middle();
   double least = std::numeric_limits<double>::infinity();
   const auto consider = [&](Point p) {
     double gap = 0;
     for (const Turn& t : turns_) {
-      if (t.meeting != Meeting::rim) gap += std::fabs(envelope_.border_height(t.before, p) - envelope_.border_height(t.after, p));
+      if (t.meeting != Meeting::rim)
+        gap += std::fabs(envelope_.border_height(t.before, p) - envelope_.border_height(t.after, p));
     }
     if (gap < least) least = gap, best = p;
   };
@@ -438,14 +450,15 @@ Point Cells::least_gap(const Box& box) const {
     consider(t.at);
     if (t.after == none) continue;
     for (const Point c : envelope_.patches().corners(t.after)) {
-      if (std::fabs(c.x - box.middle().x) <= box.larger_side() && std::fabs(c.y - box.middle().y) <= box.larger_side()) consider(c);
+      if (std::fabs(c.x - box.middle().x) <= box.larger_side() && std::fabs(c.y - box.middle().y) <= box.larger_side())
+        consider(c);
     }
   }
   return best;
 }
 
-/// The corner at which a patch's sides end that bound it at two turns in a row, if it lies close to p. Where the two are tangent, the
-/// patch is too thin to show for a stretch beyond its corner.
+/// The corner at which a patch's sides end that bound it at two turns in a row, if it lies close to p. Where the two
+/// are tangent, the patch is too thin to show for a stretch beyond its corner.
 std::optional<Point> Cells::corner_beside(Point p, const Box& box) const {
   const PatchSet& patches = envelope_.patches();
   std::optional<Point> nearest;

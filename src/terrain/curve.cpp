@@ -66,10 +66,11 @@ Offset<Real> offset(const Contact<Real>& c, double radius, Vector<Real> p) {
   return {l - radius, l > 0 ? (1 / l) * away : Vector<Real>{0, 0, 1}};
 }
 
-/// Newton's method towards the curve where both distances are R, by the shortest way. `sine`, if wanted: of the angle between the two
-/// surfaces there.
+/// Newton's method towards the curve where both distances are R, by the shortest way. `sine`, if wanted: of the angle
+/// between the two surfaces there.
 template <class Real>
-Point3 project_to_valley(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 near, double* sine = nullptr) {
+Point3 project_to_valley(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 near,
+                         double* sine = nullptr) {
   const auto a = contact_of<Real>(terrain, edge.feature[0]), b = contact_of<Real>(terrain, edge.feature[1]);
   const Real precision = 2 * std::numeric_limits<Real>::epsilon();
   Vector<Real> p(near);

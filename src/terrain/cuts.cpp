@@ -100,7 +100,7 @@ std::optional<Cells::Cut> Cells::cut_beside_wall(const Box& box) const {
     if (std::min(std::fabs(side->nx), std::fabs(side->ny)) > 0x1p-40) continue;
     const bool upright = std::fabs(side->nx) > 0.5;
     const double wall = upright ? turn.at.x : turn.at.y;
-    const double inside = (upright ? side->nx : side->ny) * (side->negative ? -1 : 1);  // the direction away from the wall
+    const double inside = (upright ? side->nx : side->ny) * -side->sign();  // the direction away from the wall
     const double far = inside > 0 ? (upright ? box.high.x : box.high.y) - wall : wall - (upright ? box.low.x : box.low.y);
     if (!(far > 4 * envelope_.tolerance())) continue;
     const double up = std::sqrt(2 * envelope_.patches().radius() * far), along = upright ? height : width;

@@ -62,7 +62,8 @@ double Envelope::axis_height(Index i, Point p) const {
 
 double Envelope::rim_height(Index i, Point p) const {
   const Patch& f = patches_[i];
-  if (f.kind == FeatureKind::face) return patches_.extended_height(i, p);  // nearly vertical, the cylinder beside it too thin to show
+  if (f.kind == FeatureKind::face)
+    return patches_.extended_height(i, p);  // nearly vertical, the cylinder beside it too thin to show
   if (f.kind == FeatureKind::vertex) return f.z;
   return f.z + f.m * std::clamp((p.x - f.at.x) * f.gx + (p.y - f.at.y) * f.gy, 0.0, f.length);
 }
@@ -76,7 +77,9 @@ const Bound* Envelope::rim_at(Index i, Point p) const {
   return nullptr;
 }
 
-double Envelope::border_height(Index i, Point p) const { return rim_at(i, p) != nullptr ? rim_height(i, p) : clamped_height(i, p); }
+double Envelope::border_height(Index i, Point p) const {
+  return rim_at(i, p) != nullptr ? rim_height(i, p) : clamped_height(i, p);
+}
 
 /// Gradient of a function that vanishes along the curve between two labels.
 Gradient Envelope::gradient_across(Index a, Index b, Meeting how, Point p) const {
@@ -108,8 +111,14 @@ Meeting Envelope::meeting(Index a, Index b, Point p) const {
 
 GradientRange Envelope::sphere_gradient(Point at, const Box& box, double factor) const {
   const Range dx{box.low.x - at.x, box.high.x - at.x}, dy{box.low.y - at.y, box.high.y - at.y};
-  const double near_x = dx.low > 0 ? dx.low : dx.high < 0 ? -dx.high : 0, far_x = std::max(std::fabs(dx.low), std::fabs(dx.high));
-  const double near_y = dy.low > 0 ? dy.low : dy.high < 0 ? -dy.high : 0, far_y = std::max(std::fabs(dy.low), std::fabs(dy.high));
+  const double near_x = dx.low > 0    ? dx.low
+                        : dx.high < 0 ? -dx.high
+                                      : 0,
+               far_x = std::max(std::fabs(dx.low), std::fabs(dx.high));
+  const double near_y = dy.low > 0    ? dy.low
+                        : dy.high < 0 ? -dy.high
+                                      : 0,
+               far_y = std::max(std::fabs(dy.low), std::fabs(dy.high));
   const double square = patches_.square_radius(), least = 1e-12 * square;
   const double most = square - (near_x * near_x + near_y * near_y), fewest = square - (far_x * far_x + far_y * far_y);
   const Range inverse{1 / std::sqrt(std::max(least, most)), 1 / std::sqrt(std::max(least, fewest))};

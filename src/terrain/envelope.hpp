@@ -43,8 +43,8 @@ class Envelope {
   double noise() const { return noise_; }
   double smallest_cell() const { return smallest_cell_; }
 
-  /// Highest candidate at p, among equals a face before an edge before a vertex, then the lowest feature number; none if no patch
-  /// lies over p.
+  /// Highest candidate at p, among equals a face before an edge before a vertex, then the lowest feature number; none
+  /// if no patch lies over p.
   Index winner(Point p, std::span<const Index> candidates) const;
 
   /// Appends to `out` the candidates that may appear in the box: those whose domain meets it and that are not hidden below the
@@ -52,8 +52,8 @@ class Envelope {
   void filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
               std::vector<Index>& out) const;
 
-  /// True if the patch is certainly not seen in the box: each part of it, halved up to `depth` times, lies outside the domain or
-  /// below the bodies of the labels, at most four.
+  /// True if the patch is certainly not seen in the box: each part of it, halved up to `depth` times, lies outside the
+  /// domain or below the bodies of the labels, at most four.
   bool stays_hidden(Index patch, const Box& box, std::span<const Index> labels, int depth) const;
 
   /// True if the patch rises nowhere in the box above the upper ones' bodies by more than the tolerance.

@@ -44,8 +44,8 @@ Range Envelope::bound_range(const Bound& b, const Box& box) const {
 
 /// Of a patch whose bounding rectangle meets the box.
 ///
-/// Where a patch ends in a wall, what reaches into the box by less than matters is left out: two walls can be tangent, and a seam is
-/// tangent to the wall that it ends in.
+/// Where a patch ends in a wall, what reaches into the box by less than matters is left out: two walls can be tangent,
+/// and a seam is tangent to the wall that it ends in.
 inline bool Envelope::domain_meets(Index i, const BoxFrame& box) const {
   const Patch& f = patches_[i];
   const double least_up = f.has_rim && f.kind == FeatureKind::vertex ? least_up_ : 0;
@@ -69,11 +69,14 @@ bool Envelope::axis_meets(const Patch& f, const BoxFrame& box) const {
          along - along_spread + shift * (shift > 0 ? low_up : high_up) <= f.length;
 }
 
-bool Envelope::domain_meets(Index i, const Box& box) const { return patches_.box(i).meets(box) && domain_meets(i, BoxFrame(box)); }
+bool Envelope::domain_meets(Index i, const Box& box) const {
+  return patches_.box(i).meets(box) && domain_meets(i, BoxFrame(box));
+}
 
 bool Envelope::covers(const Bound& b, const Box& box) const { return is_within(b, BoxFrame(box)); }
 
-/// Where a tangent plane bounds the patch well over a box of the given size: in its middle, but not closer to the rim than that.
+/// Where a tangent plane bounds the patch well over a box of the given size: in its middle, but not closer to the rim
+/// than that.
 inline Point Envelope::support_point(Index i, Point mid, double size) const {
   const Patch& f = patches_[i];
   if (f.kind == FeatureKind::face) return mid;
@@ -115,7 +118,7 @@ Envelope::Plane Envelope::support_of_steep(Index i, const Plane& whole, const Bo
   };
   Plane best = whole;
   for (const Bound& b : patches_.bounds(i)) {
-    const double sign = b.negative ? 1 : -1, rise = sign * (f.gx * b.nx + f.gy * b.ny);
+    const double sign = b.sign(), rise = sign * (f.gx * b.nx + f.gy * b.ny);
     if (!(rise > 0)) continue;
     const double k = sign * rise;
     const Plane t{whole.height - k * b.value(box.mid, 0), {f.gx - k * b.nx, f.gy - k * b.ny}};
@@ -131,9 +134,9 @@ bool Envelope::domain_covers(Index i, const BoxFrame& box) const {
   return true;
 }
 
-/// The one wall at which the patch's body ends within the box, if there is one and nothing else of the body's outline meets the box.
-/// Inside of it the body is at least as high as its rim: a ball as its centre, a cigar as its axis beside the place.
-/// A bit beyond an edge's ends its line is as good an outline as the circle there.
+/// The one wall at which the patch's body ends within the box, if there is one and nothing else of the body's outline
+/// meets the box. Inside of it the body is at least as high as its rim: a ball as its centre, a cigar as its axis
+/// beside the place. A bit beyond an edge's ends its line is as good an outline as the circle there.
 std::optional<Envelope::Wall> Envelope::wall_through(Index i, const BoxFrame& box) const {
   const Patch& f = patches_[i];
   if (f.kind == FeatureKind::vertex) return Wall{{f.at, 0, 0, 0, Bound::Type::disc, true, none, true}, 0};
@@ -152,8 +155,9 @@ std::optional<Bound> Envelope::wall_above(Index upper, Index lower, const Box& b
   if (!wall) return std::nullopt;
   const Point mid = box.middle(), p = support_point(lower, mid, box.larger_side());
   const Gradient g = patches_.gradient(lower, p);
-  for (const Point q : {box.low, Point{box.high.x, box.low.y}, box.high, Point{box.low.x, box.high.y}}) {
-    if (!(patches_.extended_height(lower, p) + g.x * (q.x - p.x) + g.y * (q.y - p.y) < rim_height(upper, q) - wall->lowered - noise_)) {
+  for (const Point q : box.corners()) {
+    if (!(patches_.extended_height(lower, p) + g.x * (q.x - p.x) + g.y * (q.y - p.y) <
+          rim_height(upper, q) - wall->lowered - noise_)) {
       return std::nullopt;
     }
   }
@@ -167,7 +171,7 @@ bool Envelope::ends_before(Index i, const Bound& wall, const Box& box) const {
   if (wall.type == Bound::Type::line) {
     for (const Bound& b : patches_.bounds(i)) {  // its own straight side runs along the wall
       if (b.type != Bound::Type::line) continue;
-      const double s = (b.negative ? -1 : 1), w = (wall.negative ? -1 : 1);
+      const double s = -b.sign(), w = -wall.sign();
       const Point m = box.middle();
       const double excess = s * b.value(m, 0) - w * wall.value(m, 0);
       const double spread = std::fabs(s * b.nx - w * wall.nx) * box.half_x() + std::fabs(s * b.ny - w * wall.ny) * box.half_y();
@@ -180,7 +184,8 @@ bool Envelope::ends_before(Index i, const Bound& wall, const Box& box) const {
     // Beyond its end an edge's body is a ball.
     const Point mid = box.middle();
     const double along = (mid.x - f.at.x) * f.gx + (mid.y - f.at.y) * f.gy;
-    const double spread = std::fabs(f.gx) * box.half_x() + std::fabs(f.gy) * box.half_y() - std::sqrt(patches_.radius() * tolerance);
+    const double spread =
+        std::fabs(f.gx) * box.half_x() + std::fabs(f.gy) * box.half_y() - std::sqrt(patches_.radius() * tolerance);
     if (along + spread <= 0) return is_centre(f.at);
     return along - spread >= f.length && is_centre({f.at.x + f.length * f.gx, f.at.y + f.length * f.gy});
   }
@@ -198,8 +203,8 @@ bool Envelope::ends_before(Index i, const Bound& wall, const Box& box) const {
   return true;
 }
 
-/// Two edges that run beside or above each other, as seen from above. With u(b) = sqrt(R^2 - b^2) for the distance b from one axis and
-/// b + e from the other, and s between b / u(b) at the two, their heights differ by
+/// Two edges that run beside or above each other, as seen from above. With u(b) = sqrt(R^2 - b^2) for the distance b
+/// from one axis and b + e from the other, and s between b / u(b) at the two, their heights differ by
 ///   level + (q_k - q_c) u(b) + q_c e s,
 /// where level and e are linear in the place.
 bool Envelope::hidden_beside(Index lower, Index upper, const BoxFrame& frame) const {
@@ -209,7 +214,7 @@ bool Envelope::hidden_beside(Index lower, Index upper, const BoxFrame& frame) co
   const auto aside = [](const Patch& f, Point p) { return (p.y - f.at.y) * f.gx - (p.x - f.at.x) * f.gy; };
   const double turn = c.gx * k.gx + c.gy * k.gy > 0 ? 1 : -1;
   const Box& box = frame.box;
-  const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+  const std::array<Point, 4> corner = box.corners();
   double apart[4], widest = 0;
   for (int i = 0; i < 4; ++i) {
     apart[i] = turn * aside(c, corner[i]) - aside(k, corner[i]);
@@ -241,8 +246,8 @@ bool Envelope::hidden_beside(Index lower, Index upper, const BoxFrame& frame) co
   return true;
 }
 
-/// True if nothing that the ball touches with the lower patch rises above the upper one's plane: then the lower patch does not rise
-/// above the plane moved by R, however tangent to it.
+/// True if nothing that the ball touches with the lower patch rises above the upper one's plane: then the lower patch
+/// does not rise above the plane moved by R, however tangent to it.
 bool Envelope::hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const {
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (k.kind != FeatureKind::face || c.kind == FeatureKind::face) return false;
@@ -251,7 +256,8 @@ bool Envelope::hidden_below_face(Index lower, Index upper, const BoxFrame& frame
     return z - (plane + k.gx * (x - k.at.x) + k.gy * (y - k.at.y)) > slack;
   };
   if (above(c.at.x, c.at.y, c.z)) return false;
-  if (c.kind == FeatureKind::edge && above(c.at.x + c.length * c.gx, c.at.y + c.length * c.gy, c.z + c.m * c.length)) return false;
+  if (c.kind == FeatureKind::edge && above(c.at.x + c.length * c.gx, c.at.y + c.length * c.gy, c.z + c.m * c.length))
+    return false;
   return domain_covers(upper, frame);
 }
 
@@ -267,8 +273,8 @@ bool Envelope::lies_in(Index lower, Index upper) const {
     const auto along = [&](Point p) { return (p.x - k.at.x) * k.gx + (p.y - k.at.y) * k.gy; };
     const auto holds = [&](Point p, double z) {
       const double t = along(p);
-      return std::fabs((p.y - k.at.y) * k.gx - (p.x - k.at.x) * k.gy) <= tolerance && t >= -tolerance && t <= k.length + tolerance &&
-             z <= k.z + k.m * t + noise_;
+      return std::fabs((p.y - k.at.y) * k.gx - (p.x - k.at.x) * k.gy) <= tolerance && t >= -tolerance &&
+             t <= k.length + tolerance && z <= k.z + k.m * t + noise_;
     };
     if (c.kind == FeatureKind::vertex) return holds(a, top_a) && along(a) > tolerance_ && along(a) < k.length - tolerance_;
     return c.length < k.length - tolerance_ && holds(a, top_a) && holds(b, top_b);
@@ -278,7 +284,7 @@ bool Envelope::lies_in(Index lower, Index upper) const {
   const auto holds = [&](Point p, double z, double margin) {
     if (z > k.z - rise + k.gx * (p.x - k.at.x - k.gx * rise) + k.gy * (p.y - k.at.y - k.gy * rise) + noise_ * k.q) return false;
     for (const Bound& side : patches_.bounds(upper)) {
-      if ((side.negative ? 1 : -1) * side.value({p.x - k.gx * rise, p.y - k.gy * rise}, 0) > -margin) return false;
+      if (side.sign() * side.value({p.x - k.gx * rise, p.y - k.gy * rise}, 0) > -margin) return false;
     }
     return true;
   };
@@ -290,14 +296,14 @@ bool Envelope::lies_in(Index lower, Index upper) const {
 /// True if two straight walls run along each other in the box, each with its patch on its own side and no gap between.
 bool Envelope::back_to_back(const Bound& a, const Bound& b, const Box& box) const {
   if (a.type != Bound::Type::line || b.type != Bound::Type::line) return false;
-  const double s = a.negative ? 1 : -1, t = b.negative ? 1 : -1;  // the values times these are negative inside
+  const double s = a.sign(), t = b.sign();
   const Point m = box.middle();
   const double spread = std::fabs(s * a.nx + t * b.nx) * box.half_x() + std::fabs(s * a.ny + t * b.ny) * box.half_y();
   return s * a.value(m, 0) + t * b.value(m, 0) + spread <= tolerance_ / 4;
 }
 
-/// The bodies of a few labels over a box, evaluated at its corners as far as needed: a concave height is least at a corner, less
-/// a plane too.
+/// The bodies of a few labels over a box, evaluated at its corners as far as needed: a concave height is least at a
+/// corner, less a plane too.
 class Envelope::Cover {
  public:
   Cover(const Envelope& envelope, const BoxFrame& frame, std::span<const Index> labels)
@@ -358,7 +364,8 @@ class Envelope::Cover {
     b.wall = envelope_.wall_through(b.label, frame_);
     b.ends = true;
     b.known = 15;
-    for (int i = 0; i < 4; ++i) b.height[i] = b.wall ? envelope_.rim_height(b.label, corner_[i]) - b.wall->lowered : below_everything;
+    for (int i = 0; i < 4; ++i)
+      b.height[i] = b.wall ? envelope_.rim_height(b.label, corner_[i]) - b.wall->lowered : below_everything;
   }
 
   /// Without any bit if no body is higher at some corner.
@@ -491,7 +498,7 @@ bool Envelope::stays_hidden(Index c, const Box& box, std::span<const Index> labe
 bool Envelope::hidden_within_tolerance(Index i, std::span<const Index> uppers, const Box& box) const {
   constexpr std::size_t most = 6;
   if (box.larger_side() >= 2 * patches_.radius()) return false;
-  const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+  const std::array<Point, 4> corner = box.corners();
   const Plane plane = support(i, BoxFrame(box));
   const double hx = plane.gradient.x * box.half_x(), hy = plane.gradient.y * box.half_y(), h = plane.height;
   const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};

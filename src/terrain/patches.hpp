@@ -29,12 +29,14 @@ struct Box {
   double half_x() const { return (high.x - low.x) / 2; }
   double half_y() const { return (high.y - low.y) / 2; }
   double larger_side() const { return std::max(high.x - low.x, high.y - low.y); }
+  /// Counter-clockwise from the lowest.
+  std::array<Point, 4> corners() const { return {low, {high.x, low.y}, high, {low.x, high.y}}; }
   bool contains(Point p) const { return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y; }
   bool meets(const Box& b) const { return b.high.x >= low.x && b.low.x <= high.x && b.high.y >= low.y && b.low.y <= high.y; }
 };
 
-/// One side of a patch's domain in the plane. Neighbouring patches hold the same numbers with opposite signs, so that exactly one
-/// of them owns each point beside a seam, whatever the rounding.
+/// One side of a patch's domain in the plane. Neighbouring patches hold the same numbers with opposite signs, so that
+/// exactly one of them owns each point beside a seam, whatever the rounding.
 struct Bound {
   enum class Type : std::uint8_t {
     line,  ///< (p - at) . n - c
@@ -59,6 +61,8 @@ struct Bound {
     return dx * nx + dy * ny + (under > 0 ? c * std::sqrt(under) : 0.0);
   }
   bool contains(Point p, double square_radius) const { return (value(p, square_radius) < 0) == negative; }
+  /// The value times this is negative on the patch's side.
+  double sign() const { return negative ? 1 : -1; }
 };
 
 /// The part of the sum's boundary that one feature can cause.
@@ -93,7 +97,9 @@ class PatchSet {
   std::span<const Bound> bounds(Index i) const { return {bounds_.data() + patches_[i].first_bound, patches_[i].bound_count}; }
 
   /// Where sides of the domain end; two of them meet nowhere else.
-  std::span<const Point> corners(Index i) const { return {corners_.data() + patches_[i].first_corner, patches_[i].corner_count}; }
+  std::span<const Point> corners(Index i) const {
+    return {corners_.data() + patches_[i].first_corner, patches_[i].corner_count};
+  }
 
   /// Height of the patch's whole plane, cylinder or sphere; below_everything where that has none.
   double extended_height(Index i, Point p) const;

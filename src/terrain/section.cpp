@@ -22,7 +22,8 @@ void Envelope::section(bool vertical, double at, double from, double to, Index s
   drop_slivers(Line{vertical, at}, start, before, out);
 }
 
-/// Where patches are equally high along a curve, or tangent to each other's borders, rounding alone decides what shows between them.
+/// Where patches are equally high along a curve, or tangent to each other's borders, rounding alone decides what shows
+/// between them.
 void Envelope::drop_slivers(const Line& line, Index start, std::size_t first, std::vector<Crossing>& crossings) const {
   std::size_t kept = first;
   const auto label_before = [&](std::size_t i) { return i == first ? start : crossings[i - 1].after; };
@@ -118,7 +119,8 @@ bool Envelope::single_crossing(const Line& line, double t0, Index l0, double t1,
     return line.vertical ? g.y : g.x;
   };
   const bool first_covers = patches_.contains(l0, q), second_covers = patches_.contains(l1, p);
-  if (!first_covers || !second_covers) return t1 - t0 < patches_.radius() / 16 && (first_covers || second_covers || !gap(line, t0, l0, t1, l1));
+  if (!first_covers || !second_covers)
+    return t1 - t0 < patches_.radius() / 16 && (first_covers || second_covers || !gap(line, t0, l0, t1, l1));
   const Range first{slope(l0, q), slope(l0, p)}, second{slope(l1, q), slope(l1, p)};
   return (second - first).excludes_zero();
 }
@@ -159,7 +161,7 @@ double Envelope::locate(const Line& line, double t0, Index l0, double t1, Index 
   const bool heights = seam == nullptr && l0 != none && l1 != none;
   const auto value = [&](double t) {  // positive on the side of l0
     const Point p = line.point(t);
-    if (seam != nullptr) return (seam->negative ? -1 : 1) * seam->value(p, patches_.square_radius());
+    if (seam != nullptr) return -seam->sign() * seam->value(p, patches_.square_radius());
     return patches_.extended_height(l0, p) - patches_.extended_height(l1, p);
   };
   const Index two[2] = {l0, l1};
@@ -186,7 +188,8 @@ double Envelope::locate(const Line& line, double t0, Index l0, double t1, Index 
     (winner(line.point(m), both) == l0 ? a : b) = m;
   }
   // Where the one ends before the other begins there is a gap between two walls, if too narrow to show.
-  const bool is_gap = l0 != none && l1 != none && !patches_.contains(l0, line.point(b)) && !patches_.contains(l1, line.point(b));
+  const bool is_gap =
+      l0 != none && l1 != none && !patches_.contains(l0, line.point(b)) && !patches_.contains(l1, line.point(b));
   how = is_gap ? Meeting::rim : meeting(l0, l1, line.point((a + b) / 2));
   return a + (b - a) / 2;
 }

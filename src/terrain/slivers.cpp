@@ -18,7 +18,9 @@ bool Cells::shows_all(const Cell& cell, std::span<const Index> candidates) {
   for (const Index c : candidates) {
     if (is_seen(c) || is_hidden(c, cell.box)) continue;
     if (cell.box.larger_side() > envelope_.patches().radius() / 128) return false;
-    if (is_thin(c, none, none, cell.box, envelope_.tolerance()) || is_tangent_sliver(c, cell.box) || envelope_.hidden_within_tolerance(c, seen_, cell.box)) continue;
+    if (is_thin(c, none, none, cell.box, envelope_.tolerance()) || is_tangent_sliver(c, cell.box) ||
+        envelope_.hidden_within_tolerance(c, seen_, cell.box))
+      continue;
     if (!prisms) prisms = all_are_prisms(candidates, cell.box);
     if (!*prisms) return false;
   }
@@ -34,18 +36,19 @@ bool Cells::is_hidden(Index patch, const Box& box) const {
 
 bool Cells::is_seen(Index label) const { return std::find(seen_.begin(), seen_.end(), label) != seen_.end(); }
 
-/// True if a cylinder's or sphere's patch is nowhere in the box wider than that between two of its sides; a sphere's between the seams to
-/// a and b, unless these are none.
+/// True if a cylinder's or sphere's patch is nowhere in the box wider than that between two of its sides; a sphere's
+/// between the seams to a and b, unless these are none.
 ///
-/// Both sides' functions are negative inside, so where their sum is above -t, so is each; their gradients across are at least 1, and
-/// near the rim at least the slope of their root.
+/// Both sides' functions are negative inside, so where their sum is above -t, so is each; their gradients across are at
+/// least 1, and near the rim at least the slope of their root.
 bool Cells::is_thin(Index patch, Index a, Index b, const Box& box, double width) const {
   const PatchSet& patches = envelope_.patches();
   const std::span<const Bound> bounds = patches.bounds(patch);
   if (patches[patch].kind == FeatureKind::edge) return bounds[0].c - bounds[1].c <= width;  // its two straight sides
   if (patches[patch].kind != FeatureKind::vertex) return false;
   const Point at = patches[patch].at, mid = box.middle();
-  const double aside = std::hypot(std::max(0.0, std::fabs(mid.x - at.x) - box.half_x()), std::max(0.0, std::fabs(mid.y - at.y) - box.half_y()));
+  const double aside = std::hypot(std::max(0.0, std::fabs(mid.x - at.x) - box.half_x()),
+                                  std::max(0.0, std::fabs(mid.y - at.y) - box.half_y()));
   const double up = std::sqrt(std::max(0.0, patches.square_radius() - aside * aside));
   const double steepness = up > 0 ? aside / up : 0;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
@@ -53,7 +56,7 @@ bool Cells::is_thin(Index patch, Index a, Index b, const Box& box, double width)
       const Bound &f = bounds[i], &g = bounds[j];
       if (f.type != Bound::Type::cone || g.type != Bound::Type::cone) continue;
       if (a != none && !(f.partner == a && g.partner == b) && !(f.partner == b && g.partner == a)) continue;
-      const double s = f.negative ? 1 : -1, t = g.negative ? 1 : -1;
+      const double s = f.sign(), t = g.sign();
       const Bound sum{f.at, s * f.nx + t * g.nx, s * f.ny + t * g.ny, s * f.c + t * g.c, Bound::Type::cone, true, none, false};
       const double slope = std::min(std::fabs(f.c), std::fabs(g.c)) * steepness - 1;
       if (envelope_.bound_range(sum, box).low >= -width * std::max(1.0, slope)) return true;
@@ -97,7 +100,8 @@ std::optional<Point> Cells::end_of_thin_bend(const Box& box) const {
 /// True if all candidates are the same along one direction all over the box: what shows in it anywhere shows at its sides.
 bool Cells::all_are_prisms(std::span<const Index> candidates, const Box& box) const {
   const PatchSet& patches = envelope_.patches();
-  const auto edge = std::find_if(candidates.begin(), candidates.end(), [&](Index c) { return patches[c].kind == FeatureKind::edge; });
+  const auto edge =
+      std::find_if(candidates.begin(), candidates.end(), [&](Index c) { return patches[c].kind == FeatureKind::edge; });
   if (edge == candidates.end()) return false;
   const Patch& axis = patches[*edge];
   const double size = box.larger_side(), slack = envelope_.tolerance() / 16;
@@ -118,11 +122,11 @@ bool Cells::all_are_prisms(std::span<const Index> candidates, const Box& box) co
   return true;
 }
 
-/// True if a patch that shows nowhere around the cell can show inside it only within the tolerance of one of its sides: where a valley
-/// is tangent to a seam, or a wall to another one.
+/// True if a patch that shows nowhere around the cell can show inside it only within the tolerance of one of its sides:
+/// where a valley is tangent to a seam, or a wall to another one.
 ///
-/// With g < 0 on the patch's side, and f < 0 where it is hidden: if f - k g <= k t |grad g| all over the box, then f <= 0
-/// wherever g <= -t |grad g|.
+/// With g < 0 on the patch's side, and f < 0 where it is hidden: if f - k g <= k t |grad g| all over the box, then f <=
+/// 0 wherever g <= -t |grad g|.
 bool Cells::is_tangent_sliver(Index patch, const Box& box) const {
   const PatchSet& patches = envelope_.patches();
   const Point mid = box.middle();
@@ -132,7 +136,7 @@ bool Cells::is_tangent_sliver(Index patch, const Box& box) const {
     GradientRange range;
   };
   const auto side = [&](const Bound& b) {
-    const double sign = b.negative ? 1 : -1;
+    const double sign = b.sign();
     const Gradient g = envelope_.bound_gradient(b, mid);
     const GradientRange r = envelope_.bound_gradient_range(b, box);
     const Range factor{sign, sign};

@@ -42,7 +42,8 @@ bool Cells::has_corner(Index patch, Point p) const {
   return false;
 }
 
-/// True if two patches have a corner at p at the same height, as far as heights near the rim tell, which fall like square roots.
+/// True if two patches have a corner at p at the same height, as far as heights near the rim tell, which fall like
+/// square roots.
 bool Cells::share_corner(Index a, Index b, Point p) const {
   if (a == none || b == none || !has_corner(a, p) || !has_corner(b, p)) return false;
   return std::fabs(envelope_.border_height(a, p) - envelope_.border_height(b, p)) <= 0x1p22 * envelope_.tolerance();
@@ -92,7 +93,8 @@ std::optional<Point> Cells::common_corner(const Box& box) const {
   for (std::size_t i = 0; i < turns_.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       Index patch = none;
-      if (sides_of_one_patch(turns_[i], turns_[j], box, patch) && !consider(patch, [](Point) { return true; })) return std::nullopt;
+      if (sides_of_one_patch(turns_[i], turns_[j], box, patch) && !consider(patch, [](Point) { return true; }))
+        return std::nullopt;
       const Index a = turns_[i].after, b = turns_[j].after;
       if (a == none || b == none || a == b) continue;
       if (!consider(a, [&](Point c) { return share_corner(a, b, c); })) return std::nullopt;
@@ -186,7 +188,8 @@ std::optional<Point> Cells::star_point(const Box& box) const {
       for (const Point start : {middle, turns_[i].at, turns_[j].at}) {
         const std::optional<Point> p = solve(anywhere[i], anywhere[j], start);
         if (!p || std::hypot(p->x - corner->x, p->y - corner->y) <= 16 * tolerance) continue;
-        if (shows_at(turns_[i].before, *p) && shows_at(turns_[i].after, *p) && shows_at(turns_[j].after, *p)) return std::nullopt;
+        if (shows_at(turns_[i].before, *p) && shows_at(turns_[i].after, *p) && shows_at(turns_[j].after, *p))
+          return std::nullopt;
       }
     }
     return corner;
@@ -212,7 +215,9 @@ std::optional<Point> Cells::star_point(const Box& box) const {
     if (t.meeting != Meeting::rim || t.before == none || t.after == none) continue;
     const Index upper = is_wall_of(t, t.before) ? t.before : t.after, lower = upper == t.before ? t.after : t.before;
     const double slack = 4 * tolerance * (1 + size(patches.gradient(lower, *p)));
-    if (envelope_.rim_at(lower, *p) == nullptr && envelope_.border_height(lower, *p) > envelope_.rim_height(upper, *p) + slack) return std::nullopt;
+    if (envelope_.rim_at(lower, *p) == nullptr &&
+        envelope_.border_height(lower, *p) > envelope_.rim_height(upper, *p) + slack)
+      return std::nullopt;
   }
   for (const Condition& k : std::span(condition.data(), n)) {
     double scale = 1;

@@ -29,7 +29,8 @@ std::vector<Point3> Surface::curve(Index e, int points) const {
   // A vertex on a wall is at its upper end; an edge that meets the wall further down ends there.
   const double scale = std::max(radius_, terrain_->extent());
   for (Point3* end : {&base.front(), &base.back()}) {
-    if (terrain::is_on_edge(*terrain_, radius_, edge, *end, 0x1p-34 * scale)) continue;  // on steep patches heights alone say little
+    if (terrain::is_on_edge(*terrain_, radius_, edge, *end, 0x1p-34 * scale))
+      continue;  // on steep patches heights alone say little
     const double z = edge.kind == EdgeKind::rim ? terrain::project_to_curve(*terrain_, radius_, edge, *end).z
                                                 : terrain::height_on_edge(*terrain_, radius_, edge, *end);
     end->z = z;

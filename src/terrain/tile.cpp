@@ -259,7 +259,7 @@ Tile TileWorker::compute(const Terrain& terrain, const Tiling& tiling, Index col
   std::vector<Index> all(patches_.size());
   std::iota(all.begin(), all.end(), Index{0});
 
-  const Point corner[4] = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+  const std::array<Point, 4> corner = box.corners();
   Index label[4];
   for (int i = 0; i < 4; ++i) label[i] = cells.envelope().winner(corner[i], all);
   std::vector<Envelope::Crossing> crossings;

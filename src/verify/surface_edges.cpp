@@ -91,8 +91,8 @@ class EdgeChecker {
     return std::max(worst, outside * turn);
   }
 
-  /// How far the ball moves in the plane, at least, for each unit that the touched point moves along an edge: near a wall a steep
-  /// edge's touched point runs along it while the ball hardly moves.
+  /// How far the ball moves in the plane, at least, for each unit that the touched point moves along an edge: near a
+  /// wall a steep edge's touched point runs along it while the ball hardly moves.
   template <class T>
   static double in_plan(const Shape& shape, const Space<T>& up) {
     if (shape.count != 2) return 1;
