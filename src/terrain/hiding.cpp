@@ -246,18 +246,24 @@ bool Envelope::hidden_beside(Index lower, Index upper, const BoxFrame& frame) co
   return true;
 }
 
-/// True if nothing that the ball touches with the lower patch rises above the upper one's plane: then the lower patch
-/// does not rise above the plane moved by R, however tangent to it.
+/// True if no point of the lower patch lies above the upper one's plane, however tangent to it: with N the plane's normal and the ball's
+/// centre at a + R n, n a unit normal of an edge along d, N.a + R N.n is at most N.a + R sqrt(1 - (N.d)^2).
 bool Envelope::hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const {
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (k.kind != FeatureKind::face || c.kind == FeatureKind::face) return false;
-  const double plane = k.z - patches_.radius() * k.q, slack = noise_ * k.q;  // the plane through the triangle
+  double most = 1;  // of N.n
+  if (c.kind == FeatureKind::edge) {
+    const double x = k.gy * c.m + c.gy, y = c.gx + k.gx * c.m, z = k.gy * c.gx - k.gx * c.gy;  // N x d
+    most = std::sqrt(x * x + y * y + z * z) / (k.q * c.q);
+  }
+  const double reach = most * patches_.radius() * k.q, slack = noise_ * k.q;
   const auto above = [&](double x, double y, double z) {
-    return z - (plane + k.gx * (x - k.at.x) + k.gy * (y - k.at.y)) > slack;
+    return z + reach - (k.z + k.gx * (x - k.at.x) + k.gy * (y - k.at.y)) > slack;
   };
   if (above(c.at.x, c.at.y, c.z)) return false;
-  if (c.kind == FeatureKind::edge && above(c.at.x + c.length * c.gx, c.at.y + c.length * c.gy, c.z + c.m * c.length))
+  if (c.kind == FeatureKind::edge && above(c.at.x + c.length * c.gx, c.at.y + c.length * c.gy, c.z + c.m * c.length)) {
     return false;
+  }
   return domain_covers(upper, frame);
 }
 
