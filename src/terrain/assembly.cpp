@@ -29,6 +29,18 @@ bool is_inner(const Chain& chain) {
   return chain.end[0].kind == ChainEnd::Kind::arm && chain.end[1].kind == ChainEnd::Kind::arm;
 }
 
+/// The number of an element that was given back, else of a new one.
+template <class Element>
+terrain::Index take_slot(std::vector<Element>& elements, std::vector<terrain::Index>& given_back) {
+  if (given_back.empty()) {
+    elements.emplace_back();
+    return terrain::Index(elements.size() - 1);
+  }
+  const terrain::Index number = given_back.back();
+  given_back.pop_back();
+  return number;
+}
+
 }  // namespace
 
 SurfaceAssembly::SurfaceAssembly(std::shared_ptr<const Terrain> terrain, double radius, const terrain::Tiling& tiling)
@@ -143,13 +155,7 @@ void SurfaceAssembly::connect_vertices(const Tile& tile, TileArms& arms) {
       connect(around);
       continue;
     }
-    Index number = Index(open_vertex_.size());
-    if (free_open_vertex_.empty()) {
-      open_vertex_.emplace_back();
-    } else {
-      number = free_open_vertex_.back();
-      free_open_vertex_.pop_back();
-    }
+    const Index number = take_slot(open_vertex_, free_open_vertex_);
     open_vertex_[number] = {first_vertex + Index(v), unknown, around};
     for (Index a = begin; a < end; ++a) arms.open[a] = {number, a - begin};
   }
@@ -158,13 +164,7 @@ void SurfaceAssembly::connect_vertices(const Tile& tile, TileArms& arms) {
 void SurfaceAssembly::add_strands(const Tile& tile, const TileArms& arms, std::array<OpenSide, 4>& sides) {
   for (const Chain& chain : tile.chains) {
     if (is_inner(chain)) continue;
-    Index number = Index(strand_.size());
-    if (free_strand_.empty()) {
-      strand_.emplace_back();
-    } else {
-      number = free_strand_.back();
-      free_strand_.pop_back();
-    }
+    const Index number = take_slot(strand_, free_strand_);
     Strand& strand = strand_[number];
     strand = {};
     strand.style = Surface::style_of(chain.kind, chain.curve, chain.lower);

@@ -233,16 +233,15 @@ bool Cells::stays_wall(const Turn& from, const Turn& to, const Box& box) const {
   if (from.meeting != Meeting::rim || from.before == none || from.after == none ||
       is_thin_bend(from.before, from.after, box))
     return true;
-  const Index upper = is_wall_of(from, from.before) ? from.before : from.after,
-              lower = upper == from.before ? from.after : from.before;
+  const auto [upper, lower] = sides_of_wall(from);
   const PatchSet& patches = envelope_.patches();
   if (patches[upper].kind == Terrain::FeatureKind::face) return true;
   const double dx = to.at.x - from.at.x, dy = to.at.y - from.at.y;
   const bool round = patches[upper].kind == Terrain::FeatureKind::vertex;
   const double sagitta = round ? (dx * dx + dy * dy) / (4 * patches.radius()) : 0;
   const Gradient wall = envelope_.rim_gradient(upper);
-  double steepest = 0, excess[2],
-         slope[2];  // of the lower patch over the wall, and how fast it grows on the way to the other end
+  // Of the lower patch over the wall, and how fast that grows on the way to the other end.
+  double steepest = 0, excess[2], slope[2];
   for (const int end : {0, 1}) {
     const Point p = end == 0 ? from.at : to.at;
     const Gradient g = patches.gradient(lower, p), d{g.x - wall.x, g.y - wall.y};
@@ -278,6 +277,11 @@ bool Cells::is_wall_of(const Turn& turn, Index label) const {
   if (turn.meeting != Meeting::rim || label == none || (turn.before != label && turn.after != label)) return false;
   const Index other = turn.before == label ? turn.after : turn.before;
   return other == none || envelope_.border_height(label, turn.at) > envelope_.border_height(other, turn.at);
+}
+
+/// The upper and the lower label of a wall between two.
+std::pair<Index, Index> Cells::sides_of_wall(const Turn& t) const {
+  return is_wall_of(t, t.before) ? std::pair(t.before, t.after) : std::pair(t.after, t.before);
 }
 
 /// True if the curves of both turns are sides of one patch, which lies between them.

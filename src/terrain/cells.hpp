@@ -113,6 +113,7 @@ class Cells {
   bool reaches(Index patch, Point p) const;
   bool shows_at(Index patch, Point p) const;
   bool is_wall_of(const Turn& turn, Index label) const;
+  std::pair<Index, Index> sides_of_wall(const Turn& turn) const;
   const Bound* side_along(const Turn& turn) const;
   bool has_corner(Index patch, Point p) const;
   bool share_corner(Index a, Index b, Point p) const;

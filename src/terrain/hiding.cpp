@@ -187,7 +187,7 @@ bool Envelope::ends_before(Index i, const Bound& wall, const Box& box) const {
     const double spread =
         std::fabs(f.gx) * box.half_x() + std::fabs(f.gy) * box.half_y() - std::sqrt(patches_.radius() * tolerance);
     if (along + spread <= 0) return is_centre(f.at);
-    return along - spread >= f.length && is_centre({f.at.x + f.length * f.gx, f.at.y + f.length * f.gy});
+    return along - spread >= f.length && is_centre(f.end());
   }
   const auto beyond = [&](Point p) {  // of the edge's line, towards the wall
     const double aside = (p.x - wall.at.x) * wall.nx + (p.y - wall.at.y) * wall.ny;
@@ -195,7 +195,7 @@ bool Envelope::ends_before(Index i, const Bound& wall, const Box& box) const {
   };
   if (f.kind == FeatureKind::vertex) return beyond(f.at) <= tolerance;
   if (f.kind == FeatureKind::edge) {
-    return beyond(f.at) <= tolerance && beyond({f.at.x + f.length * f.gx, f.at.y + f.length * f.gy}) <= tolerance;
+    return beyond(f.at) <= tolerance && beyond(f.end()) <= tolerance;
   }
   for (const Point c : patches_.corners(i)) {
     if (beyond(c) > patches_.radius() + tolerance) return false;
@@ -246,8 +246,8 @@ bool Envelope::hidden_beside(Index lower, Index upper, const BoxFrame& frame) co
   return true;
 }
 
-/// True if no point of the lower patch lies above the upper one's plane, however tangent to it: with N the plane's normal and the ball's
-/// centre at a + R n, n a unit normal of an edge along d, N.a + R N.n is at most N.a + R sqrt(1 - (N.d)^2).
+/// True if no point of the lower patch lies above the upper one's plane, however tangent to it: with N the plane's normal and
+/// the ball's centre at a + R n, n a unit normal of an edge along d, N.a + R N.n is at most N.a + R sqrt(1 - (N.d)^2).
 bool Envelope::hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const {
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (k.kind != FeatureKind::face || c.kind == FeatureKind::face) return false;
@@ -257,13 +257,11 @@ bool Envelope::hidden_below_face(Index lower, Index upper, const BoxFrame& frame
     most = std::sqrt(x * x + y * y + z * z) / (k.q * c.q);
   }
   const double reach = most * patches_.radius() * k.q, slack = noise_ * k.q;
-  const auto above = [&](double x, double y, double z) {
-    return z + reach - (k.z + k.gx * (x - k.at.x) + k.gy * (y - k.at.y)) > slack;
+  const auto above = [&](Point p, double z) {
+    return z + reach - (k.z + k.gx * (p.x - k.at.x) + k.gy * (p.y - k.at.y)) > slack;
   };
-  if (above(c.at.x, c.at.y, c.z)) return false;
-  if (c.kind == FeatureKind::edge && above(c.at.x + c.length * c.gx, c.at.y + c.length * c.gy, c.z + c.m * c.length)) {
-    return false;
-  }
+  if (above(c.at, c.z)) return false;
+  if (c.kind == FeatureKind::edge && above(c.end(), c.end_z())) return false;
   return domain_covers(upper, frame);
 }
 
@@ -273,8 +271,8 @@ bool Envelope::lies_in(Index lower, Index upper) const {
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (c.kind == FeatureKind::face || c.kind > k.kind || k.kind == FeatureKind::vertex) return false;
   const double tolerance = tolerance_ / 4;
-  const Point a = c.at, b{c.at.x + c.length * c.gx, c.at.y + c.length * c.gy};
-  const double top_a = c.z, top_b = c.z + c.m * c.length;
+  const Point a = c.at, b = c.end();
+  const double top_a = c.z, top_b = c.end_z();
   if (k.kind == FeatureKind::edge) {
     const auto along = [&](Point p) { return (p.x - k.at.x) * k.gx + (p.y - k.at.y) * k.gy; };
     const auto holds = [&](Point p, double z) {
@@ -313,12 +311,8 @@ bool Envelope::back_to_back(const Bound& a, const Bound& b, const Box& box) cons
 class Envelope::Cover {
  public:
   Cover(const Envelope& envelope, const BoxFrame& frame, std::span<const Index> labels)
-      : envelope_(envelope), frame_(frame), bodies_(labels.size()) {
+      : envelope_(envelope), frame_(frame), bodies_(labels.size()), corner_(frame.box.corners()) {
     const Box& box = frame.box;
-    corner_[0] = box.low;
-    corner_[1] = {box.high.x, box.low.y};
-    corner_[2] = box.high;
-    corner_[3] = {box.low.x, box.high.y};
     if (box.low.x == box.high.x || box.low.y == box.high.y) step_ = 2;
     for (std::size_t k = 0; k < bodies_; ++k) body_[k].label = labels[k];
   }
@@ -439,7 +433,7 @@ class Envelope::Cover {
   const BoxFrame& frame_;
   std::size_t bodies_;
   int step_ = 1;  // a line has two ends
-  Point corner_[4];
+  std::array<Point, 4> corner_;
   Body body_[most];
 };
 

@@ -399,7 +399,7 @@ double PatchSet::body_height(Index i, Point p) const {
     const double contact = along + f.m / f.q * up;
     if (contact < 0) return ball_height(f.at, f.z, p);
     if (contact > f.length) {
-      return ball_height({f.at.x + f.length * f.gx, f.at.y + f.length * f.gy}, f.z + f.m * f.length, p);
+      return ball_height(f.end(), f.end_z(), p);
     }
     return f.z + f.m * along + f.q * up;
   }

@@ -80,6 +80,10 @@ struct Patch {
   double m, q;    ///< edge: rise per unit length in the plane, and sqrt(1 + m^2); face: q is the length of (gx, gy, 1)
   double length;  ///< edge: in the plane
   double top;     ///< at least its greatest height
+
+  /// Of an edge: its second vertex.
+  Point end() const { return {at.x + length * gx, at.y + length * gy}; }
+  double end_z() const { return z + m * length; }
 };
 
 /// All patches that may appear above a rectangle, and their domains.

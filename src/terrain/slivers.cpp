@@ -92,7 +92,7 @@ std::optional<Point> Cells::end_of_thin_bend(const Box& box) const {
       const double step = seam->value(p, patches.square_radius()) / (g.x * g.x + g.y * g.y);
       p = {p.x - step * g.x, p.y - step * g.y};
     }
-    if (p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y) return p;
+    if (box.contains(p)) return p;
   }
   return std::nullopt;
 }

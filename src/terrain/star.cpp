@@ -84,7 +84,7 @@ std::optional<Point> Cells::common_corner(const Box& box) const {
   std::optional<Point> found;
   const auto consider = [&](Index patch, auto&& wanted) {  // false: there are two
     for (const Point c : envelope_.patches().corners(patch)) {
-      if (!(c.x >= box.low.x && c.x <= box.high.x && c.y >= box.low.y && c.y <= box.high.y) || !wanted(c)) continue;
+      if (!box.contains(c) || !wanted(c)) continue;
       if (found && std::hypot(found->x - c.x, found->y - c.y) > envelope_.tolerance()) return false;
       if (!found) found = c;
     }
@@ -178,8 +178,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
       if (!(std::fabs(p.x - middle.x) <= reach && std::fabs(p.y - middle.y) <= reach)) return std::nullopt;
       converged = std::fabs(dx) + std::fabs(dy) <= 0.25 * tolerance;
     }
-    if (!converged || !(p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y)) return std::nullopt;
-    return p;
+    return converged && box.contains(p) ? std::optional(p) : std::nullopt;
   };
   if (corner) {
     // Two curves in a row that bound one patch, and meet elsewhere in the box.
@@ -213,7 +212,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
   if (!p || !all_reach(*p)) return std::nullopt;
   for (const Turn& t : turns_) {  // walls that are none here
     if (t.meeting != Meeting::rim || t.before == none || t.after == none) continue;
-    const Index upper = is_wall_of(t, t.before) ? t.before : t.after, lower = upper == t.before ? t.after : t.before;
+    const auto [upper, lower] = sides_of_wall(t);
     const double slack = 4 * tolerance * (1 + size(patches.gradient(lower, *p)));
     if (envelope_.rim_at(lower, *p) == nullptr &&
         envelope_.border_height(lower, *p) > envelope_.rim_height(upper, *p) + slack)
