@@ -4,13 +4,15 @@
 #include <limits>
 #include <type_traits>
 
-#include "profile/double_double.hpp"
+#include "kernel/double_double.hpp"
 #include "profile/element.hpp"
 
 // Where the boundary passes from one element to a later one: the closed forms, for every precision of the ladder.
 // Each is written so that no two nearly equal numbers are subtracted but those the input gives (docs/profile.md). The one
 // exception is circle_to_circle in double precision; the error that it states includes it.
 namespace krepl::profile {
+
+using kernel::DoubleDouble;
 
 /// Bound on the relative error of one operation.
 template <class Real>

@@ -5,94 +5,77 @@
 namespace krepl::terrain {
 namespace {
 
-double length(double x, double y) { return std::sqrt(x * x + y * y); }
-
-double distance(Point p, Point a, Point b) {
-  const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-  const double t = square > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0, 1.0) : 0.0;
-  return length(p.x - a.x - t * dx, p.y - a.y - t * dy);
+template <class Point, class Real = decltype(Point::x)>
+Real distance(Point p, Point a, Point b) {
+  const Real dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+  const Real t = square > 0 ? std::clamp<Real>(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0, 1) : Real(0);
+  return norm<Real>(p.x - a.x - t * dx, p.y - a.y - t * dy);
 }
 
 /// Of two segments whose ends lie on the border of a box, not crossing each other.
-double distance(Point a, Point b, Point c, Point d) {
+template <class Point, class Real = decltype(Point::x)>
+Real distance(Point a, Point b, Point c, Point d) {
   return std::min({distance(a, c, d), distance(b, c, d), distance(c, a, b), distance(d, a, b)});
 }
 
 }  // namespace
 
-Cells::Cells(const PatchSet& patches, double scale, SurfaceCounters& counters, const Context& context)
-    : envelope_(patches, scale, counters), counters_(counters), context_(context), far_(patches.radius() >= scale) {}
+template <class Real>
+Cells<Real>::Cells(CellMap& map, Envelope<Real>& envelope, SurfaceCounters& counters, const Context& context,
+                   Cells<DoubleDouble>* finer)
+    : map_(map),
+      envelope_(envelope),
+      counters_(counters),
+      context_(context),
+      far_(envelope.is_far()),
+      finer_(finer) {}
 
-Index Cells::add_line(bool vertical, double at, Index start_label, const std::vector<Envelope::Crossing>& crossings) {
-  const Index first = Index(crossings_.size());
-  lines_.push_back({vertical, at, start_label, first, Index(crossings.size())});
-  for (const auto& c : crossings) crossings_.push_back({c.t, c.after, c.meeting, {}});
-  const Index pieces = piece_count();
-  for (Index p = Index(region_.size()); p < pieces; ++p) region_.push_back(p);
-  return Index(lines_.size() - 1);
-}
-
-Index Cells::region(Index piece) {
-  while (region_[piece] != piece) {
-    region_[piece] = region_[region_[piece]];
-    piece = region_[piece];
-  }
-  return piece;
-}
-
-void Cells::unite(Index a, Index b) {
-  a = region(a);
-  b = region(b);
-  if (a != b) region_[std::max(a, b)] = std::min(a, b);
-}
-
-bool Cells::run(const Box& tile, std::span<const Index> candidates) {
+template <class Real>
+bool Cells<Real>::run(const Cell& cell, std::span<const Index> candidates) {
   stack_.assign(candidates.begin(), candidates.end());
-  Cell cell{tile, {}};
-  for (Index i = 0; i < 4; ++i) {
-    const CellLine& line = lines_[i];
-    cell.side[i] = {i, line.first_crossing, line.first_crossing + line.crossing_count, line.start_label};
-  }
   return subdivide(cell, 0, 0);
 }
 
 /// Collects the turns and the pieces between them, and unites pieces that meet at the cell's corners.
-void Cells::walk(const Cell& cell) {
+template <class Real>
+void Cells<Real>::walk(const Cell& cell) {
   turns_.clear();
   turn_piece_.clear();
   Index previous = none, first_piece = none;
   const auto pass = [&](Index piece) {
     if (previous == none) first_piece = piece;
-    else unite(previous, piece);
+    else map_.unite(previous, piece);
     previous = piece;
   };
-  const auto turn = [&](const Side& s, Index c, Index before, Index after, int side) {
-    const Crossing& x = crossings_[c];
-    turns_.push_back({c, side, before, after, x.meeting, place(s.line, x)});
+  const auto turn = [&](const CellSide& s, Index c, Index before, Index after, int side) {
+    const CellMap::Crossing& x = map_.crossings()[c];
+    const auto at = map_.place(s.line, x);
+    turns_.push_back({c, side, before, after, x.meeting, {at.x, at.y}});
     turn_piece_.push_back(previous);
   };
   for (int i = 0; i < 4; ++i) {
-    const Side& s = cell.side[i];
-    const Index base = lines_[s.line].first_crossing;
-    const auto label_before = [&](Index c) { return c == s.first ? s.label : crossings_[c - 1].after; };
+    const CellSide& s = cell.side[i];
+    const Index base = map_.lines()[s.line].first_crossing;
+    const auto label_before = [&](Index c) { return c == s.first ? s.label : map_.crossings()[c - 1].after; };
     if (i < 2) {
-      pass(piece(s.line, s.first - base));
+      pass(map_.piece(s.line, s.first - base));
       for (Index c = s.first; c < s.last; ++c) {
-        turn(s, c, label_before(c), crossings_[c].after, i == 0 ? 1 : 0);
-        previous = piece(s.line, c + 1 - base);
+        turn(s, c, label_before(c), map_.crossings()[c].after, i == 0 ? 1 : 0);
+        previous = map_.piece(s.line, c + 1 - base);
       }
     } else {
-      pass(piece(s.line, s.last - base));
+      pass(map_.piece(s.line, s.last - base));
       for (Index c = s.last; c-- > s.first;) {
-        turn(s, c, crossings_[c].after, label_before(c), i == 2 ? 0 : 1);
-        previous = piece(s.line, c - base);
+        turn(s, c, map_.crossings()[c].after, label_before(c), i == 2 ? 0 : 1);
+        previous = map_.piece(s.line, c - base);
       }
     }
   }
-  unite(previous, first_piece);
+  map_.unite(previous, first_piece);
 }
 
-bool Cells::subdivide(const Cell& cell, std::size_t first, int depth) {
+template <class Real>
+bool Cells<Real>::subdivide(const Cell& cell, std::size_t first, int depth) {
   ++counters_.cells;
   if (context_.cancelled()) return false;
   const std::size_t begin = stack_.size();
@@ -100,8 +83,8 @@ bool Cells::subdivide(const Cell& cell, std::size_t first, int depth) {
   int count = 0;
   for (int i = 0; i < 4; ++i) {
     // Labels at the corners: the ends of bottom and top.
-    const Side& s = cell.side[i < 2 ? 0 : 2];
-    const Index label = i % 2 == 1 && s.last > s.first ? crossings_[s.last - 1].after : s.label;
+    const CellSide& s = cell.side[i < 2 ? 0 : 2];
+    const Index label = i % 2 == 1 && s.last > s.first ? map_.crossings()[s.last - 1].after : s.label;
     if (label != none && std::find(champions.begin(), champions.begin() + count, label) == champions.begin() + count) {
       champions[count++] = label;
     }
@@ -114,38 +97,65 @@ bool Cells::subdivide(const Cell& cell, std::size_t first, int depth) {
   }
   const bool smallest = cell.box.larger_side() <= envelope_.smallest_cell();
   bool done = true;
-  const std::size_t left = stack_.size() - begin;
-  if ((!smallest && left > most_settled) || !settle(cell, {stack_.data() + begin, left}, smallest)) {
-    done = split(cell, begin, depth);
+  const std::span<const Index> left(stack_.data() + begin, stack_.size() - begin);
+  if ((!smallest && left.size() > most_settled) || !settle(cell, left, smallest)) {
+    done = finer_ != nullptr && left.size() <= most_settled && is_hard(cell.box) ? refine(cell, left)
+                                                                                   : split(cell, begin, depth);
   }
   stack_.resize(begin);
   return done;
 }
 
-bool Cells::split(const Cell& cell, std::size_t first, int depth) {
+/// True if double may not tell what is in a cell that has been walked around: in small ones where surfaces meet at small angles
+/// or are steep, in the smallest ones anyway.
+template <class Real>
+bool Cells<Real>::is_hard(const Box& box) const {
+  const Real size_of_cell = box.larger_side();
+  if (size_of_cell > envelope_.fine_cell()) return false;
+  if (size_of_cell <= envelope_.fine_cell() / 64) return true;
+  constexpr double flat = 0x1p-7, steep = 16;
+  return std::any_of(turns_.begin(), turns_.end(), [&](const Turn& t) {
+    if (t.meeting == Meeting::rim) return true;
+    const Gradient g = envelope_.patches().gradient(t.before, t.at), h = envelope_.patches().gradient(t.after, t.at);
+    return size(g) > steep || (t.meeting == Meeting::valley && size(Gradient{g.x - h.x, g.y - h.y}) < flat);
+  });
+}
+
+template <class Real>
+bool Cells<Real>::refine(const Cell& cell, std::span<const Index> candidates) {
+  const auto coordinates = [](Point p) { return PointOf<DoubleDouble>{p.x, p.y}; };
+  typename Cells<DoubleDouble>::Cell same{{coordinates(cell.box.low), coordinates(cell.box.high)}, {}};
+  std::copy(cell.side, cell.side + 4, same.side);
+  envelope_.finer(candidates, true);
+  return finer_->run(same, candidates);
+}
+
+template <class Real>
+bool Cells<Real>::split(const Cell& cell, std::size_t first, int depth) {
   const Box& box = cell.box;
   const Cut where = cut(cell, {stack_.data() + first, stack_.size() - first});
   const bool vertical = where.vertical;
-  const Side &low_side = cell.side[vertical ? 0 : 3], &high_side = cell.side[vertical ? 2 : 1];
-  const double low = vertical ? box.low.x : box.low.y, high = vertical ? box.high.x : box.high.y;
+  const CellSide &low_side = cell.side[vertical ? 0 : 3], &high_side = cell.side[vertical ? 2 : 1];
+  const Real low = vertical ? box.low.x : box.low.y, high = vertical ? box.high.x : box.high.y;
   const double at = where.at;
   if (!(at > low && at < high) || depth > 200) {
-    failed_at_ = box.middle();
+    map_.failed_at = {double(box.middle().x), double(box.middle().y)};
     return false;
   }
-  const auto first_beyond = [&](const Side& s) {
+  const auto first_beyond = [&](const CellSide& s) {
     Index c = s.first;
-    while (c < s.last && crossings_[c].t <= at) ++c;
+    while (c < s.last && map_.crossings()[c].t <= at) ++c;
     return c;
   };
-  const auto label_at = [&](const Side& s, Index c) { return c == s.first ? s.label : crossings_[c - 1].after; };
+  const auto label_at = [&](const CellSide& s, Index c) { return c == s.first ? s.label : map_.crossings()[c - 1].after; };
   const Index low_cut = first_beyond(low_side), high_cut = first_beyond(high_side);
   const Index start = label_at(low_side, low_cut), end = label_at(high_side, high_cut);
   found_.clear();
-  envelope_.section(vertical, at, vertical ? box.low.y : box.low.x, vertical ? box.high.y : box.high.x, start, end,
-                    {stack_.data() + first, stack_.size() - first}, found_);
-  const Index line = add_line(vertical, at, start, found_);
-  const Side middle{line, lines_[line].first_crossing, lines_[line].first_crossing + lines_[line].crossing_count, start};
+  const Real from = vertical ? box.low.y : box.low.x, to = vertical ? box.high.y : box.high.x;
+  envelope_.section(vertical, at, double(from), double(to), start, end, {stack_.data() + first, stack_.size() - first}, found_);
+  const Index line = map_.add_line(vertical, at, start, found_);
+  const Index first_crossing = map_.lines()[line].first_crossing;
+  const CellSide middle{line, first_crossing, first_crossing + Index(found_.size()), start};
 
   Cell below = cell, above = cell;
   const int a = vertical ? 0 : 3, b = vertical ? 2 : 1;
@@ -163,7 +173,8 @@ bool Cells::split(const Cell& cell, std::size_t first, int depth) {
   return subdivide(below, first, depth + 1) && subdivide(above, first, depth + 1);
 }
 
-bool Cells::settle(const Cell& cell, std::span<const Index> candidates, bool smallest) {
+template <class Real>
+bool Cells<Real>::settle(const Cell& cell, std::span<const Index> candidates, bool smallest) {
   walk(cell);
   if (!smallest && !shows_all(cell, candidates)) return false;
   const std::size_t n = turns_.size();
@@ -176,18 +187,20 @@ bool Cells::settle(const Cell& cell, std::span<const Index> candidates, bool sma
   return true;
 }
 
-void Cells::connect(const Turn& a, const Turn& b) {
-  crossings_[a.crossing].link[a.side] = Link::crossing(b.crossing, b.side);
-  crossings_[b.crossing].link[b.side] = Link::crossing(a.crossing, a.side);
+template <class Real>
+void Cells<Real>::connect(const Turn& a, const Turn& b) {
+  map_.link(a.crossing, a.side, Link::crossing(b.crossing, b.side));
+  map_.link(b.crossing, b.side, Link::crossing(a.crossing, a.side));
 }
 
 /// True if two patches cannot be equally high along a closed curve in the box. Inside it their heights would differ most where
 /// they have one normal, so that what the ball touches there is at one place in the plane. Of two spheres and of a sphere and a
 /// cylinder this is so nowhere, or all along an arc from rim to rim; of two cylinders it is a saddle, since each is straight in
 /// one direction; of a plane and a cylinder it is so nowhere or along a line. A plane can cut a cap off a sphere.
-bool Cells::cannot_close(Index a, Index b, const Box& box) const {
+template <class Real>
+bool Cells<Real>::cannot_close(Index a, Index b, const Box& box) const {
   using Kind = Terrain::FeatureKind;
-  const PatchSet& patches = envelope_.patches();
+  const PatchSet<Real>& patches = envelope_.patches();
   if (a == none || b == none) return false;
   for (const Index l : {a, b}) {
     if (!patches[l].has_rim) continue;
@@ -200,17 +213,18 @@ bool Cells::cannot_close(Index a, Index b, const Box& box) const {
   if (patches[a].kind == Kind::edge || patches[b].kind == Kind::edge) return true;
   if (patches[a].kind == patches[b].kind) return false;
   const Patch &face = patches[patches[a].kind == Kind::face ? a : b], &sphere = patches[patches[a].kind == Kind::face ? b : a];
-  const double reach = patches.radius() / face.q, slack = envelope_.smallest_cell();
+  const Real reach = patches.radius() / face.q, slack = envelope_.smallest_cell();
   const Point top{sphere.at.x - face.gx * reach, sphere.at.y - face.gy * reach};
   return !Box{{box.low.x - slack, box.low.y - slack}, {box.high.x + slack, box.high.y + slack}}.contains(top);
 }
 
 /// True if the curve between the turn's labels cannot close inside the box: some direction is never along it.
-bool Cells::curve_is_simple(const Turn& t, const Box& box) const {
+template <class Real>
+bool Cells<Real>::curve_is_simple(const Turn& t, const Box& box) const {
   if (t.meeting != Meeting::valley || is_thin_bend(t.before, t.after, box))
     return box.larger_side() < envelope_.patches().radius();
   if (cannot_close(t.before, t.after, box)) return true;
-  const auto never_along = [&](double x, double y) {
+  const auto never_along = [&](Real x, Real y) {
     return (envelope_.derivative_range(t.before, box, {x, y}) - envelope_.derivative_range(t.after, box, {x, y}))
         .excludes_zero();
   };
@@ -229,19 +243,20 @@ bool Cells::curve_is_simple(const Turn& t, const Box& box) const {
 /// True if a wall between two turns stays one: where the lower patch reaches its height the two meet in a valley.
 ///
 /// The lower patch is concave, so its tangents at the two ends bound it.
-bool Cells::stays_wall(const Turn& from, const Turn& to, const Box& box) const {
+template <class Real>
+bool Cells<Real>::stays_wall(const Turn& from, const Turn& to, const Box& box) const {
   if (from.meeting != Meeting::rim || from.before == none || from.after == none ||
       is_thin_bend(from.before, from.after, box))
     return true;
   const auto [upper, lower] = sides_of_wall(from);
-  const PatchSet& patches = envelope_.patches();
+  const PatchSet<Real>& patches = envelope_.patches();
   if (patches[upper].kind == Terrain::FeatureKind::face) return true;
-  const double dx = to.at.x - from.at.x, dy = to.at.y - from.at.y;
+  const Real dx = to.at.x - from.at.x, dy = to.at.y - from.at.y;
   const bool round = patches[upper].kind == Terrain::FeatureKind::vertex;
-  const double sagitta = round ? (dx * dx + dy * dy) / (4 * patches.radius()) : 0;
+  const Real sagitta = round ? (dx * dx + dy * dy) / (4 * patches.radius()) : 0;
   const Gradient wall = envelope_.rim_gradient(upper);
   // Of the lower patch over the wall, and how fast that grows on the way to the other end.
-  double steepest = 0, excess[2], slope[2];
+  Real steepest = 0, excess[2], slope[2];
   for (const int end : {0, 1}) {
     const Point p = end == 0 ? from.at : to.at;
     const Gradient g = patches.gradient(lower, p), d{g.x - wall.x, g.y - wall.y};
@@ -249,22 +264,24 @@ bool Cells::stays_wall(const Turn& from, const Turn& to, const Box& box) const {
     slope[end] = (end == 0 ? 1 : -1) * (d.x * dx + d.y * dy);
     steepest = std::max(steepest, size(d));
   }
-  double most = std::max(excess[0], excess[1]);
+  Real most = std::max(excess[0], excess[1]);
   if (slope[0] > 0 && slope[1] > 0)
     most = std::max(most, excess[0] + slope[0] * (excess[1] - excess[0] + slope[1]) / (slope[0] + slope[1]));
   return most <= 64 * envelope_.tolerance() * (1 + steepest);
 }
 
-bool Cells::are_coplanar(Index a, Index b, const Box& box) const {
-  const PatchSet& patches = envelope_.patches();
+template <class Real>
+bool Cells<Real>::are_coplanar(Index a, Index b, const Box& box) const {
+  const PatchSet<Real>& patches = envelope_.patches();
   if (patches[a].kind != Terrain::FeatureKind::face || patches[b].kind != Terrain::FeatureKind::face) return false;
   const Point mid = box.middle();
-  const double dx = std::fabs(patches[a].gx - patches[b].gx), dy = std::fabs(patches[a].gy - patches[b].gy);
-  const double apart = std::fabs(patches.extended_height(a, mid) - patches.extended_height(b, mid));
+  const Real dx = absolute(patches[a].gx - patches[b].gx), dy = absolute(patches[a].gy - patches[b].gy);
+  const Real apart = absolute(patches.extended_height(a, mid) - patches.extended_height(b, mid));
   return apart + dx * box.half_x() + dy * box.half_y() <= envelope_.noise();
 }
 
-bool Cells::settle_arc(const Box& box, bool smallest) {
+template <class Real>
+bool Cells<Real>::settle_arc(const Box& box, bool smallest) {
   const Turn &a = turns_[0], &b = turns_[1];
   if (a.meeting != b.meeting) return settle_star(box, smallest);  // where a valley ends in a wall
   if (!smallest && !(curve_is_simple(a, box) && stays_wall(a, b, box))) return false;
@@ -273,19 +290,22 @@ bool Cells::settle_arc(const Box& box, bool smallest) {
 }
 
 /// True if the label is the upper one of a wall.
-bool Cells::is_wall_of(const Turn& turn, Index label) const {
+template <class Real>
+bool Cells<Real>::is_wall_of(const Turn& turn, Index label) const {
   if (turn.meeting != Meeting::rim || label == none || (turn.before != label && turn.after != label)) return false;
   const Index other = turn.before == label ? turn.after : turn.before;
   return other == none || envelope_.border_height(label, turn.at) > envelope_.border_height(other, turn.at);
 }
 
 /// The upper and the lower label of a wall between two.
-std::pair<Index, Index> Cells::sides_of_wall(const Turn& t) const {
+template <class Real>
+std::pair<Index, Index> Cells<Real>::sides_of_wall(const Turn& t) const {
   return is_wall_of(t, t.before) ? std::pair(t.before, t.after) : std::pair(t.after, t.before);
 }
 
 /// True if the curves of both turns are sides of one patch, which lies between them.
-bool Cells::sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const {
+template <class Real>
+bool Cells<Real>::sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const {
   const auto is_side = [&](const Turn& turn) {
     return turn.meeting != Meeting::valley || is_thin_bend(turn.before, turn.after, box);
   };
@@ -302,15 +322,24 @@ bool Cells::sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Ind
 }
 
 /// True if the straight wall between two turns is nowhere reached by the other patch of the valley beside it: that one's height
-/// is concave, so its tangent bounds it.
-bool Cells::wall_stays_above(const Turn& from, const Turn& to, const Turn& valley) const {
-  const Index upper = from.before == none ? from.after : from.before;
+/// is concave, so its tangent bounds it, or it ends in a wall of its own before.
+template <class Real>
+bool Cells<Real>::wall_keeps_off(const Turn& from, const Turn& to, const Turn& valley) const {
+  const Index upper = sides_of_wall(from).first;
   const Index other = valley.before == upper ? valley.after : valley.before;
-  if ((from.before != none && from.after != none) || (valley.before != upper && valley.after != upper)) return false;
-  const PatchSet& patches = envelope_.patches();
+  if (valley.before != upper && valley.after != upper) return false;
+  const PatchSet<Real>& patches = envelope_.patches();
   if (patches[upper].kind != Terrain::FeatureKind::edge) return false;
+  const Patch& f = patches[other];
+  const Real radius = patches.radius();
+  if (f.kind == Terrain::FeatureKind::vertex && distance(f.at, from.at, to.at) >= radius) return true;
+  if (f.kind == Terrain::FeatureKind::edge) {
+    const auto aside = [&](Point p) { return (p.y - f.at.y) * f.gx - (p.x - f.at.x) * f.gy; };
+    const Real a = aside(from.at), b = aside(to.at);
+    if (std::min(a, b) >= radius || std::max(a, b) <= -radius) return true;
+  }
   const Point mid{(from.at.x + to.at.x) / 2, (from.at.y + to.at.y) / 2};
-  const double h = envelope_.clamped_height(other, mid);
+  const Real h = envelope_.clamped_height(other, mid);
   const Gradient g = patches.gradient(other, mid);
   for (const Point p : {from.at, to.at}) {
     if (!(h + g.x * (p.x - mid.x) + g.y * (p.y - mid.y) < envelope_.rim_height(upper, p))) return false;
@@ -318,9 +347,10 @@ bool Cells::wall_stays_above(const Turn& from, const Turn& to, const Turn& valle
   return true;
 }
 
-bool Cells::corner_in(Index patch, const Box& box) const {
+template <class Real>
+bool Cells<Real>::corner_in(Index patch, const Box& box) const {
   if (patch == none) return false;
-  const double slack = envelope_.smallest_cell();
+  const Real slack = envelope_.smallest_cell();
   for (const Point c : envelope_.patches().corners(patch)) {
     if (c.x >= box.low.x - slack && c.x <= box.high.x + slack && c.y >= box.low.y - slack && c.y <= box.high.y + slack)
       return true;
@@ -332,8 +362,9 @@ bool Cells::corner_in(Index patch, const Box& box) const {
 ///
 /// The function f that vanishes along it is zero at both ends, so where its derivative along the chord is within w of itself,
 /// |f| <= w / 4 times the chord's length; across it, f changes by at least its least derivative there.
-double Cells::bend(const Turn& turn, Point end, const Box& box) const {
-  const double dx = end.x - turn.at.x, dy = end.y - turn.at.y, length = std::sqrt(dx * dx + dy * dy);
+template <class Real>
+Real Cells<Real>::bend(const Turn& turn, Point end, const Box& box) const {
+  const Real dx = end.x - turn.at.x, dy = end.y - turn.at.y, length = square_root(dx * dx + dy * dy);
   if (!(length > 0)) return 0;
   const Gradient along{dx / length, dy / length}, across{-along.y, along.x};
   Range a, b;
@@ -343,18 +374,19 @@ double Cells::bend(const Turn& turn, Point end, const Box& box) const {
   } else {
     const Bound* side = side_along(turn);
     if (side == nullptr) return std::numeric_limits<double>::infinity();
-    if (side->type == Bound::Type::line) return 0;
+    if (side->type == BoundType::line) return 0;
     const GradientRange g = envelope_.bound_gradient_range(*side, box);
     const auto directed = [&](Gradient d) { return g.x * Range{d.x, d.x} + g.y * Range{d.y, d.y}; };
     a = directed(along);
     b = directed(across);
   }
   if (!b.excludes_zero()) return std::numeric_limits<double>::infinity();
-  return (a.high - a.low) * length / (4 * std::min(std::fabs(b.low), std::fabs(b.high)));
+  return (a.high - a.low) * length / (4 * std::min(absolute(b.low), absolute(b.high)));
 }
 
 /// Curves side by side: each pair of labels meets at exactly two turns, which nest like brackets.
-bool Cells::settle_strips(const Box& box) {
+template <class Real>
+bool Cells<Real>::settle_strips(const Box& box) {
   const std::size_t n = turns_.size();
   if (n % 2 != 0) return false;
   std::array<int, 16> mate;
@@ -382,12 +414,12 @@ bool Cells::settle_strips(const Box& box) {
     const Turn &s = turns_[i], &t = turns_[j], &s_end = turns_[std::size_t(mate[i])], &t_end = turns_[std::size_t(mate[j])];
     Index patch = none;
     if (sides_of_one_patch(s, t, box, patch)) return !corner_in(patch, box);  // they meet only there
-    if (s.meeting == Meeting::rim && t.meeting == Meeting::valley && wall_stays_above(s, s_end, t)) return true;
-    if (t.meeting == Meeting::rim && s.meeting == Meeting::valley && wall_stays_above(t, t_end, s)) return true;
+    if (s.meeting == Meeting::rim && t.meeting == Meeting::valley && wall_keeps_off(s, s_end, t)) return true;
+    if (t.meeting == Meeting::rim && s.meeting == Meeting::valley && wall_keeps_off(t, t_end, s)) return true;
     for (const Turn* turn : {&s, &t}) {
       if (turn->meeting != Meeting::valley && (corner_in(turn->before, box) || corner_in(turn->after, box))) return false;
     }
-    if (far_) {
+    if (far_ || is_fine) {
       for (const Index l : {s.before, s.after}) {
         if (l == none || (l != t.before && l != t.after)) continue;
         const auto beyond = [&](const Turn& turn) {
@@ -399,7 +431,7 @@ bool Cells::settle_strips(const Box& box) {
       }
     }
     // Closer than the tolerance they may touch: a seam and a valley that are tangent.
-    const double room = std::max(distance(s.at, s_end.at, t.at, t_end.at), envelope_.tolerance());
+    const Real room = std::max(distance(s.at, s_end.at, t.at, t_end.at), envelope_.tolerance());
     return bend(s, s_end.at, box) + bend(t, t_end.at, box) < room;
   };
   for (std::size_t i = 0; i < n; ++i) {
@@ -415,13 +447,14 @@ bool Cells::settle_strips(const Box& box) {
     if (j < i) continue;
     connect(turns_[i], turns_[j]);
     // The run that ends at turn i goes on after turn j; the one that starts at turn i ends at turn j.
-    unite(turn_piece_[i], turn_piece_[(j + 1) % n]);
-    unite(turn_piece_[(i + 1) % n], turn_piece_[j]);
+    map_.unite(turn_piece_[i], turn_piece_[(j + 1) % n]);
+    map_.unite(turn_piece_[(i + 1) % n], turn_piece_[j]);
   }
   return true;
 }
 
-bool Cells::settle_star(const Box& box, bool smallest) {
+template <class Real>
+bool Cells<Real>::settle_star(const Box& box, bool smallest) {
   if (!smallest) {
     for (std::size_t i = 0; i < turns_.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
@@ -431,21 +464,34 @@ bool Cells::settle_star(const Box& box, bool smallest) {
   }
   const std::optional<Point> found = star_point(box);
   if (!found && !smallest) return false;
+  if (found && finer_ != nullptr && is_steep()) return false;
   const Point p = found ? *found : least_gap(box);
   add_vertex(corner_beside(p, box).value_or(p));
   return true;
 }
 
+/// True if a face there is so steep that what the plane's tolerance leaves open is much on the surface; one that is vertical
+/// but for rounding is a wall.
+template <class Real>
+bool Cells<Real>::is_steep() const {
+  const PatchSet<Real>& patches = envelope_.patches();
+  return std::any_of(turns_.begin(), turns_.end(), [&](const Turn& t) {
+    if (t.after == none || patches[t.after].kind != Terrain::FeatureKind::face) return false;
+    return patches[t.after].q > 16 && patches[t.after].q < 0x1p20;
+  });
+}
+
 /// Where the patches around the smallest cell come closest in height, of the places known there: near walls the middle
 /// can be far off in height.
-Point Cells::least_gap(const Box& box) const {
+template <class Real>
+PointOf<Real> Cells<Real>::least_gap(const Box& box) const {
   Point best = box.middle();
-  double least = std::numeric_limits<double>::infinity();
+  Real least = std::numeric_limits<double>::infinity();
   const auto consider = [&](Point p) {
-    double gap = 0;
+    Real gap = 0;
     for (const Turn& t : turns_) {
       if (t.meeting != Meeting::rim)
-        gap += std::fabs(envelope_.border_height(t.before, p) - envelope_.border_height(t.after, p));
+        gap += absolute(envelope_.border_height(t.before, p) - envelope_.border_height(t.after, p));
     }
     if (gap < least) least = gap, best = p;
   };
@@ -454,7 +500,7 @@ Point Cells::least_gap(const Box& box) const {
     consider(t.at);
     if (t.after == none) continue;
     for (const Point c : envelope_.patches().corners(t.after)) {
-      if (std::fabs(c.x - box.middle().x) <= box.larger_side() && std::fabs(c.y - box.middle().y) <= box.larger_side())
+      if (absolute(c.x - box.middle().x) <= box.larger_side() && absolute(c.y - box.middle().y) <= box.larger_side())
         consider(c);
     }
   }
@@ -463,10 +509,11 @@ Point Cells::least_gap(const Box& box) const {
 
 /// The corner at which a patch's sides end that bound it at two turns in a row, if it lies close to p. Where the two
 /// are tangent, the patch is too thin to show for a stretch beyond its corner.
-std::optional<Point> Cells::corner_beside(Point p, const Box& box) const {
-  const PatchSet& patches = envelope_.patches();
+template <class Real>
+std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p, const Box& box) const {
+  const PatchSet<Real>& patches = envelope_.patches();
   std::optional<Point> nearest;
-  double least = 0x1p-12 * patches.radius();
+  Real least = 0x1p-12 * patches.radius();
   for (std::size_t i = 0; i < turns_.size(); ++i) {
     const Turn &from = turns_[i], &to = turns_[(i + 1) % turns_.size()];
     Index patch = none;
@@ -474,10 +521,10 @@ std::optional<Point> Cells::corner_beside(Point p, const Box& box) const {
     const Bound *a = side_along(from), *b = side_along(to);
     if (a == nullptr || b == nullptr) continue;
     for (const Point c : patches.corners(patch)) {
-      const double apart = std::hypot(c.x - p.x, c.y - p.y);
+      const Real apart = norm(c.x - p.x, c.y - p.y);
       const auto ends = [&](const Bound& side) {
         const Gradient g = envelope_.bound_gradient(side, c);
-        return std::fabs(side.value(c, patches.square_radius())) <= 4 * envelope_.tolerance() * (1 + std::hypot(g.x, g.y));
+        return absolute(side.value(c, patches.square_radius())) <= 4 * envelope_.tolerance() * (1 + norm(g.x, g.y));
       };
       if (apart < least && ends(*a) && ends(*b)) least = apart, nearest = c;
     }
@@ -485,18 +532,20 @@ std::optional<Point> Cells::corner_beside(Point p, const Box& box) const {
   return nearest;
 }
 
-void Cells::add_vertex(Point at) {
-  const Index v = Index(vertices_.size());
-  double z = below_everything;
+template <class Real>
+void Cells<Real>::add_vertex(Point at) {
+  Real z = below_everything;
+
   for (const Turn& t : turns_) {
     // Near the rim heights fall like square roots; the rim's own height is as near to the surface.
     if (t.after != none) z = std::max(z, envelope_.border_height(t.after, at));
   }
-  vertices_.push_back({{at.x, at.y, z}, Index(arms_.size()), Index(turns_.size())});
-  for (const Turn& t : turns_) {
-    crossings_[t.crossing].link[t.side] = Link::vertex(v);
-    arms_.push_back(Link::crossing(t.crossing, t.side));
-  }
+  arms_.clear();
+  for (const Turn& t : turns_) arms_.push_back(Link::crossing(t.crossing, t.side));
+  map_.add_vertex({double(at.x), double(at.y), double(z)}, arms_);
 }
+
+template class Cells<double>;
+template class Cells<DoubleDouble>;
 
 }  // namespace krepl::terrain

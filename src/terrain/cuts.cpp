@@ -12,40 +12,41 @@ constexpr double near_middle = 0.48717, uneven = 0.4641;
 
 /// Between the corners of patches in the cell, which are vertices mostly, or else near the middle of the longer sides. Exactly
 /// in the middle is often a line of symmetry, along which curves run.
-Cells::Cut Cells::cut(const Cell& cell, std::span<const Index> candidates) {
+template <class Real>
+typename Cells<Real>::Cut Cells<Real>::cut(const Cell& cell, std::span<const Index> candidates) {
   const Box& box = cell.box;
-  if (far_ && std::min(box.high.x - box.low.x, box.high.y - box.low.y) > envelope_.smallest_cell() / 64) {
+  if ((far_ || is_fine) && std::min(box.high.x - box.low.x, box.high.y - box.low.y) > envelope_.smallest_cell() / 64) {
     if (candidates.size() > most_settled) walk(cell);  // else its turns are known
     if (const std::optional<Cut> between = cut_between_strips(cell)) return *between;
-    if (const std::optional<Cut> beside = cut_beside_wall(box)) return *beside;
+    if (const std::optional<Cut> beside = far_ ? cut_beside_wall(box) : std::nullopt) return *beside;
   }
-  const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
+  const Real width = box.high.x - box.low.x, height = box.high.y - box.low.y;
   const Gradient stretch = far_ ? steepness(box) : Gradient{1, 1};  // cells are square on the surface: it is steep near walls
-  const double thinnest = envelope_.smallest_cell() / 64;
+  const Real thinnest = envelope_.smallest_cell() / 64;
   Cut best{height <= thinnest || (width > thinnest && width * stretch.x >= height * stretch.y), 0};
-  best.at = best.vertical ? box.low.x + near_middle * width : box.low.y + near_middle * height;
+  best.at = double(best.vertical ? box.low.x + near_middle * width : box.low.y + near_middle * height);
   if (candidates.size() > most_settled || std::min(width, height) <= thinnest) return best;
   for (std::vector<double>& t : corner_place_) t.clear();
   for (const Index c : candidates) {
     for (const Point p : envelope_.patches().corners(c)) {
       if (!(p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y)) continue;
-      corner_place_[0].push_back(p.x);
-      corner_place_[1].push_back(p.y);
+      corner_place_[0].push_back(double(p.x));
+      corner_place_[1].push_back(double(p.y));
     }
   }
   add_likely_vertices(box);
   if (corner_place_[0].size() < 2) return best;
   // The widest gap, but none that makes long thin cells.
-  double widest = std::max(width * stretch.x, height * stretch.y) / 32;
+  Real widest = std::max(width * stretch.x, height * stretch.y) / 32;
   for (const bool vertical : {true, false}) {
-    const double low = vertical ? box.low.x : box.low.y, high = vertical ? box.high.x : box.high.y;
-    const double scale = vertical ? stretch.x : stretch.y, across = vertical ? height * stretch.y : width * stretch.x;
+    const Real low = vertical ? box.low.x : box.low.y, high = vertical ? box.high.x : box.high.y;
+    const Real scale = vertical ? stretch.x : stretch.y, across = vertical ? height * stretch.y : width * stretch.x;
     std::vector<double>& t = corner_place_[vertical ? 0 : 1];
     std::sort(t.begin(), t.end());
-    const auto consider = [&](double gap, double at) {
+    const auto consider = [&](Real gap, Real at) {
       if (!(gap * scale > widest && 8 * scale * std::min(at - low, high - at) > across)) return;
       widest = gap * scale;
-      best = {vertical, at};
+      best = {vertical, double(at)};
     };
     for (std::size_t i = 1; i < t.size(); ++i) consider(t[i] - t[i - 1], t[i - 1] + uneven * (t[i] - t[i - 1]));
   }
@@ -53,7 +54,8 @@ Cells::Cut Cells::cut(const Cell& cell, std::span<const Index> candidates) {
 }
 
 /// How much longer lines in x and y are on the surface than in the plane, in the middle of the box.
-Gradient Cells::steepness(const Box& box) const {
+template <class Real>
+GradientOf<Real> Cells<Real>::steepness(const Box& box) const {
   Gradient most{0, 0};
   const auto consider = [&](Index l) {
     if (l == none) return;
@@ -64,14 +66,15 @@ Gradient Cells::steepness(const Box& box) const {
   if (turns_.empty()) {
     for (const Index l : seen_) consider(l);
   }
-  return {std::sqrt(1 + most.x * most.x), std::sqrt(1 + most.y * most.y)};
+  return {square_root(1 + most.x * most.x), square_root(1 + most.y * most.y)};
 }
 
 /// Between curves that lie side by side, along them: R above the extent makes strips much longer than they are wide.
-std::optional<Cells::Cut> Cells::cut_between_strips(const Cell& cell) {
+template <class Real>
+std::optional<typename Cells<Real>::Cut> Cells<Real>::cut_between_strips(const Cell& cell) {
   Index count[2];  // of crossings on vertical sides and on horizontal ones
   for (int i = 0; i < 2; ++i) {
-    const Side &s = cell.side[i == 0 ? 1 : 0], &t = cell.side[i == 0 ? 3 : 2];
+    const CellSide &s = cell.side[i == 0 ? 1 : 0], &t = cell.side[i == 0 ? 3 : 2];
     count[i] = s.last - s.first + t.last - t.first;
   }
   if (std::max(count[0], count[1]) < std::max(4u, 2 * std::min(count[0], count[1]))) return std::nullopt;
@@ -79,10 +82,10 @@ std::optional<Cells::Cut> Cells::cut_between_strips(const Cell& cell) {
   std::vector<double>& t = corner_place_[0];
   t.clear();
   for (const int i : {vertical ? 0 : 1, vertical ? 2 : 3}) {
-    for (Index c = cell.side[i].first; c < cell.side[i].last; ++c) t.push_back(crossings_[c].t);
+    for (Index c = cell.side[i].first; c < cell.side[i].last; ++c) t.push_back(map_.crossings()[c].t);
   }
   std::sort(t.begin(), t.end());
-  double at = 0, widest = 0x1p-10 * (vertical ? 2 * cell.box.half_x() : 2 * cell.box.half_y());
+  double at = 0, widest = 0x1p-10 * double(vertical ? 2 * cell.box.half_x() : 2 * cell.box.half_y());
   bool found = false;
   for (std::size_t i = t.size() / 4; i + 1 < t.size() && i <= 3 * t.size() / 4; ++i) {
     if (t[i + 1] - t[i] > widest) widest = t[i + 1] - t[i], at = t[i] + near_middle * widest, found = true;
@@ -92,26 +95,28 @@ std::optional<Cells::Cut> Cells::cut_between_strips(const Cell& cell) {
 
 /// Beside a straight wall: the surface is smooth in the height above it, the root of the distance, and cells are square in
 /// that.
-std::optional<Cells::Cut> Cells::cut_beside_wall(const Box& box) const {
-  const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
+template <class Real>
+std::optional<typename Cells<Real>::Cut> Cells<Real>::cut_beside_wall(const Box& box) const {
+  const Real width = box.high.x - box.low.x, height = box.high.y - box.low.y;
   for (const Turn& turn : turns_) {
     const Bound* side = turn.meeting == Meeting::rim ? side_along(turn) : nullptr;
-    if (side == nullptr || side->type != Bound::Type::line) continue;
-    if (std::min(std::fabs(side->nx), std::fabs(side->ny)) > 0x1p-40) continue;
-    const bool upright = std::fabs(side->nx) > 0.5;
-    const double wall = upright ? turn.at.x : turn.at.y;
-    const double inside = (upright ? side->nx : side->ny) * -side->sign();  // the direction away from the wall
-    const double far = inside > 0 ? (upright ? box.high.x : box.high.y) - wall : wall - (upright ? box.low.x : box.low.y);
+    if (side == nullptr || side->type != BoundType::line) continue;
+    if (std::min(absolute(side->nx), absolute(side->ny)) > 0x1p-40) continue;
+    const bool upright = absolute(side->nx) > 0.5;
+    const Real wall = upright ? turn.at.x : turn.at.y;
+    const Real inside = (upright ? side->nx : side->ny) * -side->sign();  // the direction away from the wall
+    const Real far = inside > 0 ? (upright ? box.high.x : box.high.y) - wall : wall - (upright ? box.low.x : box.low.y);
     if (!(far > 4 * envelope_.tolerance())) continue;
-    const double up = std::sqrt(2 * envelope_.patches().radius() * far), along = upright ? height : width;
-    if (along > up) return Cut{!upright, upright ? box.low.y + near_middle * height : box.low.x + near_middle * width};
-    return Cut{upright, inside > 0 ? wall + far / 4 : wall - far / 4};
+    const Real up = square_root(2 * envelope_.patches().radius() * far), along = upright ? height : width;
+    if (along > up) return Cut{!upright, double(upright ? box.low.y + near_middle * height : box.low.x + near_middle * width)};
+    return Cut{upright, double(inside > 0 ? wall + far / 4 : wall - far / 4)};
   }
   return std::nullopt;
 }
 
 /// Where seams meet the one valley through the cell, as if that were straight.
-void Cells::add_likely_vertices(const Box& box) {
+template <class Real>
+void Cells<Real>::add_likely_vertices(const Box& box) {
   const Turn* valley[2] = {nullptr, nullptr};
   int count = 0;
   for (const Turn& t : turns_) {
@@ -120,18 +125,21 @@ void Cells::add_likely_vertices(const Box& box) {
     valley[count++] = &t;
   }
   if (count < 2) return;
-  const PatchSet& patches = envelope_.patches();
+  const PatchSet<Real>& patches = envelope_.patches();
   const Point p = valley[0]->at, q = valley[1]->at;
   for (const Turn& t : turns_) {
     const Bound* seam = t.meeting == Meeting::seam ? patches.seam(t.before, t.after) : nullptr;
     if (seam == nullptr) continue;
-    const double a = seam->value(p, patches.square_radius()), b = seam->value(q, patches.square_radius());
+    const Real a = seam->value(p, patches.square_radius()), b = seam->value(q, patches.square_radius());
     if ((a < 0) == (b < 0)) continue;
     const Point v{p.x + a / (a - b) * (q.x - p.x), p.y + a / (a - b) * (q.y - p.y)};
     if (!(v.x > box.low.x && v.x < box.high.x && v.y > box.low.y && v.y < box.high.y)) continue;
-    corner_place_[0].push_back(v.x);
-    corner_place_[1].push_back(v.y);
+    corner_place_[0].push_back(double(v.x));
+    corner_place_[1].push_back(double(v.y));
   }
 }
+
+template class Cells<double>;
+template class Cells<DoubleDouble>;
 
 }  // namespace krepl::terrain

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,39 +8,47 @@
 
 namespace krepl::terrain {
 
-struct Range {
-  double low, high;
-  bool excludes_zero() const { return low > 0 || high < 0; }
-};
-inline Range operator-(Range a, Range b) { return {a.low - b.high, a.high - b.low}; }
-inline Range operator+(Range a, Range b) { return {a.low + b.low, a.high + b.high}; }
-Range operator*(Range a, Range b);
-struct GradientRange {
-  Range x, y;
-};
-
 /// How two labels meet along the boundary between them.
 enum class Meeting : std::uint8_t { seam, valley, rim };
 
+/// Where labels change along a line.
+struct LineCrossing {
+  double t;
+  Index after;  ///< label beyond it
+  Meeting meeting;
+};
+
 /// The upper envelope of a set of patches over a region: which candidates can appear at all, which one is highest at a
 /// place, and in what order they appear along a line.
+///
+/// In double it passes on to a `finer` one what it cannot tell: which of several patches of nearly one height is highest, where
+/// labels change within a short stretch of a line, and where two surfaces meet at a small angle.
+template <class Real>
 class Envelope {
  public:
-  struct Crossing {
-    double t;
-    Index after;  ///< label beyond it
-    Meeting meeting;
-  };
+  using Point = PointOf<Real>;
+  using Box = BoxOf<Real>;
+  using Bound = BoundOf<Real>;
+  using Patch = PatchOf<Real>;
+  using Gradient = GradientOf<Real>;
+  using Range = RangeOf<Real>;
+  using GradientRange = GradientRangeOf<Real>;
 
   /// `scale`: the S of the accuracy contract.
-  Envelope(const PatchSet& patches, double scale, SurfaceCounters& counters);
+  Envelope(PatchSet<Real>& patches, double scale, SurfaceCounters& counters, Envelope<DoubleDouble>* finer = nullptr);
 
-  const PatchSet& patches() const { return patches_; }
+  const PatchSet<Real>& patches() const { return patches_; }
+  /// The one with more digits, ready for lines across these patches, or also for cells; null if there is none.
+  Envelope<DoubleDouble>* finer(std::span<const Index> candidates, bool cells = false) const;
   /// Lengths and heights that differ by less are not told apart.
-  double tolerance() const { return tolerance_; }
+  Real tolerance() const { return tolerance_; }
   /// Heights that differ by less count as equal.
-  double noise() const { return noise_; }
-  double smallest_cell() const { return smallest_cell_; }
+  Real noise() const { return noise_; }
+  Real smallest_cell() const { return smallest_cell_; }
+  /// Cells and stretches below this are left to the finer envelope, if there is one.
+  Real fine_cell() const { return fine_cell_; }
+  /// True if R is at least the extent.
+  bool is_far() const { return far_; }
 
   /// Highest candidate at p, among equals a face before an edge before a vertex, then the lowest feature number; none
   /// if no patch lies over p.
@@ -68,7 +75,7 @@ class Envelope {
   /// Labels along an axis-parallel line: appends crossings with t ascending to `out`. `start` and `end` are the labels at
   /// the two ends, where t is x or y.
   void section(bool vertical, double at, double from, double to, Index start, Index end, std::span<const Index> candidates,
-               std::vector<Crossing>& out);
+               std::vector<LineCrossing>& out);
 
   Range bound_range(const Bound& bound, const Box& box) const;
   GradientRange bound_gradient_range(const Bound& bound, const Box& box) const;
@@ -76,74 +83,86 @@ class Envelope {
   /// Of the derivative of extended_height along a direction of the plane.
   Range derivative_range(Index patch, const Box& box, Gradient direction) const;
   /// Height at which a patch ends in a wall: of the points that a ball touches with a horizontal normal.
-  double rim_height(Index patch, Point p) const;
+  Real rim_height(Index patch, Point p) const;
   Gradient rim_gradient(Index patch) const;
   /// Gradient of a bound's function; steep but finite near the rim.
   Gradient bound_gradient(const Bound& bound, Point p) const;
   /// The one wall in which the upper patch's body ends within the box, if that wall is all above the lower patch.
   std::optional<Bound> wall_above(Index upper, Index lower, const Box& box) const;
   /// Of extended_height, but continued where the patch's surface has ended.
-  double clamped_height(Index patch, Point p) const;
+  Real clamped_height(Index patch, Point p) const;
   /// The side of the patch's domain beside p that ends in a wall; null if there is none so near.
   const Bound* rim_at(Index patch, Point p) const;
   /// Height at p, a place on the border of the patch's domain: at a rim that of the rim.
-  double border_height(Index patch, Point p) const;
+  Real border_height(Index patch, Point p) const;
   Meeting meeting(Index a, Index b, Point p) const;
   Gradient gradient_across(Index a, Index b, Meeting how, Point p) const;
 
  private:
+  template <class Other>
+  friend class Envelope;
+  /// What costs too much for large cells, of which few need it.
+  static constexpr bool is_fine = std::is_same_v<Real, DoubleDouble>;
   struct Line;
   struct BoxFrame;
   class Cover;
   /// A linear function: its value in the middle of a box, and its gradient.
   struct Plane {
-    double height;
+    Real height;
     Gradient gradient;
   };
   /// A wall in which a body ends, and by how much the body may be lower there than the patch's rim_height.
   struct Wall {
     Bound outline;
-    double lowered;
+    Real lowered;
   };
-  void section(const Line& line, double t0, Index l0, double t1, Index l1, std::size_t first, int depth);
-  void drop_slivers(const Line& line, Index start, std::size_t first, std::vector<Crossing>& crossings) const;
-  bool gap(const Line& line, double t0, Index l0, double t1, Index l1) const;
-  bool single_crossing(const Line& line, double t0, Index l0, double t1, Index l1) const;
-  double locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& meeting) const;
+  void section(const Line& line, Real t0, Index l0, Real t1, Index l1, std::size_t first, int depth);
+  void drop_slivers(const Line& line, Index start, std::size_t first, std::vector<LineCrossing>& crossings) const;
+  bool gap(const Line& line, Real t0, Index l0, Real t1, Index l1) const;
+  bool single_crossing(const Line& line, Real t0, Index l0, Real t1, Index l1) const;
+  Real locate(const Line& line, Real t0, Index l0, Real t1, Index l1, Meeting& meeting) const;
   template <class Function>
-  double root(const Function& value, double a, double fa, double b, double fb) const;
-  Point support_point(Index patch, Point mid, double size) const;
+  Real root(const Function& value, Real a, Real fa, Real b, Real fb) const;
+  Point support_point(Index patch, Point mid, Real size) const;
+  Plane plane_of(const Patch& face, Point p) const;
+  bool is_steep(const Patch& patch) const;
   Plane support(Index patch, const BoxFrame& box) const;
   Plane support_of_steep(Index patch, const Plane& whole, const BoxFrame& box) const;
   template <int sign>
-  double extreme(const Bound& bound, const BoxFrame& box, double least_up = 0) const;
+  Real extreme(const Bound& bound, const BoxFrame& box, Real least_up = 0) const;
   bool is_within(const Bound& bound, const BoxFrame& box) const;
   std::optional<Wall> wall_through(Index patch, const BoxFrame& box) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
-  double axis_height(Index edge, Point p) const;
+  Real axis_height(Index edge, Point p) const;
   bool lies_in(Index lower, Index upper) const;
   bool hidden_beside(Index lower, Index upper, const BoxFrame& frame) const;
   bool hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const;
   struct Vector {
-    double x, y, z;
+    Real x, y, z;
   };
   std::size_t contacts(Index patch, const Box& box, Vector* out) const;
   std::size_t normals(Index patch, const Box& box, Vector* out) const;
+  bool hidden_by_axis(Index lower, Index upper, const Box& box) const;
   bool hidden_by_balls(Index patch, std::span<const Index> labels, const Box& box) const;
-  bool curve_function(Index own, Index other, std::span<const Vector> places, std::span<const Vector> normals, double* value,
-                      double& slack) const;
+  bool curve_function(Index own, Index other, std::span<const Vector> places, std::span<const Vector> normals, Real* value,
+                      Real& slack) const;
   bool back_to_back(const Bound& a, const Bound& b, const Box& box) const;
   bool domain_covers(Index patch, const BoxFrame& box) const;
   bool domain_meets(Index patch, const BoxFrame& box) const;
+  bool lies_beyond(const Bound& bound, const BoxFrame& box) const;
   bool axis_meets(const Patch& edge, const BoxFrame& box) const;
-  GradientRange sphere_gradient(Point at, const Box& box, double factor) const;
+  GradientRange sphere_gradient(Point at, const Box& box, Real factor) const;
 
-  const PatchSet& patches_;
-  double tolerance_, smallest_cell_, smallest_stretch_, noise_, rim_width_, least_up_;
-  bool far_;  // R is at least the extent
+  PatchSet<Real>& patches_;
+  Real tolerance_, smallest_cell_, fine_cell_, smallest_stretch_, noise_, rim_width_, least_up_;
+  bool far_;
   SurfaceCounters& counters_;
+  Envelope<DoubleDouble>* finer_;
   std::vector<Index> stack_, kept_;
-  std::vector<Crossing>* out_ = nullptr;
+  std::vector<LineCrossing>* out_ = nullptr;
 };
+
+extern template class Envelope<double>;
+extern template class Envelope<DoubleDouble>;
 
 }  // namespace krepl::terrain

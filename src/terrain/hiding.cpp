@@ -7,37 +7,41 @@ namespace krepl::terrain {
 
 using FeatureKind = Terrain::FeatureKind;
 
-struct Envelope::BoxFrame {
+template <class Real>
+struct Envelope<Real>::BoxFrame {
   explicit BoxFrame(const Box& b) : box(b), mid(b.middle()), hx(b.half_x()), hy(b.half_y()) {}
   const Box& box;
   Point mid;
-  double hx, hy;
+  Real hx, hy;
 };
 
 /// The least value of a bound's function over a box (sign = 1), or the greatest one with its sign changed (sign = -1), a bit
 /// less for rounding. `least_up`: of the height over the rim that a cone's value depends on.
+template <class Real>
 template <int sign>
-inline double Envelope::extreme(const Bound& b, const BoxFrame& f, double least_up) const {
-  const double dx = f.mid.x - b.at.x, dy = f.mid.y - b.at.y;
-  const double slack = 1e-15 * (std::fabs(dx) + std::fabs(dy) + f.hx + f.hy);
-  if (b.type == Bound::Type::line) {
-    return sign * (dx * b.nx + dy * b.ny - b.c) - (std::fabs(b.nx) * f.hx + std::fabs(b.ny) * f.hy + slack);
+inline Real Envelope<Real>::extreme(const Bound& b, const BoxFrame& f, Real least_up) const {
+  const Real dx = f.mid.x - b.at.x, dy = f.mid.y - b.at.y;
+  const Real slack = Precision<Real>::rounding * (absolute(dx) + absolute(dy) + f.hx + f.hy);
+  if (b.type == BoundType::line) {
+    return sign * (dx * b.nx + dy * b.ny - b.c) - (absolute(b.nx) * f.hx + absolute(b.ny) * f.hy + slack);
   }
-  const double square = patches_.square_radius();
-  const double near_x = std::max(0.0, std::fabs(dx) - f.hx), near_y = std::max(0.0, std::fabs(dy) - f.hy);
-  const double far_x = std::fabs(dx) + f.hx, far_y = std::fabs(dy) + f.hy;
-  const double near = near_x * near_x + near_y * near_y, far = far_x * far_x + far_y * far_y;
-  if (b.type == Bound::Type::disc) return (sign > 0 ? near - square : square - far) - 2 * slack * (far_x + far_y);
-  const double lift = sign * b.c, up = std::max(least_up, std::sqrt(std::max(0.0, square - (lift >= 0 ? far : near))));
-  return sign * (dx * b.nx + dy * b.ny) - (std::fabs(b.nx) * f.hx + std::fabs(b.ny) * f.hy + slack) + lift * up;
+  const Real square = patches_.square_radius();
+  const Real near_x = std::max(Real(0), absolute(dx) - f.hx), near_y = std::max(Real(0), absolute(dy) - f.hy);
+  const Real far_x = absolute(dx) + f.hx, far_y = absolute(dy) + f.hy;
+  const Real near = near_x * near_x + near_y * near_y, far = far_x * far_x + far_y * far_y;
+  if (b.type == BoundType::disc) return (sign > 0 ? near - square : square - far) - 2 * slack * (far_x + far_y);
+  const Real lift = sign * b.c, up = std::max(least_up, square_root(std::max(Real(0), square - (lift >= 0 ? far : near))));
+  return sign * (dx * b.nx + dy * b.ny) - (absolute(b.nx) * f.hx + absolute(b.ny) * f.hy + slack) + lift * up;
 }
 
 /// True if the patch's side of the bound is all of the box.
-inline bool Envelope::is_within(const Bound& b, const BoxFrame& f) const {
+template <class Real>
+inline bool Envelope<Real>::is_within(const Bound& b, const BoxFrame& f) const {
   return b.negative ? extreme<-1>(b, f) > 0 : extreme<1>(b, f) >= 0;
 }
 
-Range Envelope::bound_range(const Bound& b, const Box& box) const {
+template <class Real>
+RangeOf<Real> Envelope<Real>::bound_range(const Bound& b, const Box& box) const {
   const BoxFrame frame(box);
   return {extreme<1>(b, frame), -extreme<-1>(b, frame)};
 }
@@ -46,59 +50,93 @@ Range Envelope::bound_range(const Bound& b, const Box& box) const {
 ///
 /// Where a patch ends in a wall, what reaches into the box by less than matters is left out: two walls can be tangent,
 /// and a seam is tangent to the wall that it ends in.
-inline bool Envelope::domain_meets(Index i, const BoxFrame& box) const {
+template <class Real>
+inline bool Envelope<Real>::domain_meets(Index i, const BoxFrame& box) const {
   const Patch& f = patches_[i];
-  const double least_up = f.has_rim && f.kind == FeatureKind::vertex ? least_up_ : 0;
+  const Real least_up = f.has_rim && f.kind == FeatureKind::vertex ? least_up_ : 0;
   for (const Bound& b : patches_.bounds(i)) {
-    const double slack = !b.rim ? 0 : b.type == Bound::Type::disc ? 2 * patches_.radius() * tolerance_ : tolerance_;
+    const Real slack = !b.rim ? 0 : b.type == BoundType::disc ? 2 * patches_.radius() * tolerance_ : tolerance_;
     if (b.negative ? extreme<1>(b, box, least_up) >= -slack : extreme<-1>(b, box, least_up) > -slack) return false;
+    if (is_fine && b.type == BoundType::cone && least_up == 0 && lies_beyond(b, box)) return false;
   }
   return f.kind != FeatureKind::edge || !f.has_rim || axis_meets(f, box);
 }
 
+/// True if all of a small box lies beyond a cone, by tangent planes: they tell more than bounds of each term where these nearly
+/// cancel out.
+template <class Real>
+bool Envelope<Real>::lies_beyond(const Bound& b, const BoxFrame& f) const {
+  const Real square = patches_.square_radius();
+  const Real far_x = absolute(f.mid.x - b.at.x) + f.hx, far_y = absolute(f.mid.y - b.at.y) + f.hy;
+  if (!(far_x * far_x + far_y * far_y < square)) return false;
+  const Real sign = b.negative ? 1 : -1;  // to be shown: sign * value > 0
+  const auto is_beyond = [&](Real value) { return sign * value > noise_; };
+  if (sign * b.c >= 0) {  // concave
+    for (const Point p : f.box.corners()) {
+      if (!is_beyond(b.value(p, square))) return false;
+    }
+    return true;
+  }
+  const Gradient g = bound_gradient(b, f.mid);
+  return is_beyond(b.value(f.mid, square) - sign * (absolute(g.x) * f.hx + absolute(g.y) * f.hy));
+}
+
 /// True if the axis of an edge has places that a ball in the box may touch: the same for its ends.
-bool Envelope::axis_meets(const Patch& f, const BoxFrame& box) const {
-  const double dx = box.mid.x - f.at.x, dy = box.mid.y - f.at.y;
-  const double along = dx * f.gx + dy * f.gy, aside = std::fabs(dy * f.gx - dx * f.gy);
-  const double along_spread = std::fabs(f.gx) * box.hx + std::fabs(f.gy) * box.hy + noise_;
-  const double aside_spread = std::fabs(f.gy) * box.hx + std::fabs(f.gx) * box.hy;
-  const auto up = [&](double b) { return std::max(least_up_, std::sqrt(std::max(0.0, patches_.square_radius() - b * b))); };
-  const double low_up = up(aside + aside_spread), high_up = up(std::max(0.0, aside - aside_spread));
-  const double shift = f.m / f.q;
+template <class Real>
+bool Envelope<Real>::axis_meets(const Patch& f, const BoxFrame& box) const {
+  const Real dx = box.mid.x - f.at.x, dy = box.mid.y - f.at.y;
+  const Real along = dx * f.gx + dy * f.gy, aside = absolute(dy * f.gx - dx * f.gy);
+  const Real along_spread = absolute(f.gx) * box.hx + absolute(f.gy) * box.hy + noise_;
+  const Real aside_spread = absolute(f.gy) * box.hx + absolute(f.gx) * box.hy;
+  const auto up = [&](Real b) { return std::max(least_up_, square_root(std::max(Real(0), patches_.square_radius() - b * b))); };
+  const Real low_up = up(aside + aside_spread), high_up = up(std::max(Real(0), aside - aside_spread));
+  const Real shift = f.m * f.flat;
   return along + along_spread + shift * (shift > 0 ? high_up : low_up) >= 0 &&
          along - along_spread + shift * (shift > 0 ? low_up : high_up) <= f.length;
 }
 
-bool Envelope::domain_meets(Index i, const Box& box) const {
+template <class Real>
+bool Envelope<Real>::domain_meets(Index i, const Box& box) const {
   return patches_.box(i).meets(box) && domain_meets(i, BoxFrame(box));
 }
 
-bool Envelope::covers(const Bound& b, const Box& box) const { return is_within(b, BoxFrame(box)); }
+template <class Real>
+bool Envelope<Real>::covers(const Bound& b, const Box& box) const { return is_within(b, BoxFrame(box)); }
 
 /// Where a tangent plane bounds the patch well over a box of the given size: in its middle, but not closer to the rim
 /// than that.
-inline Point Envelope::support_point(Index i, Point mid, double size) const {
+template <class Real>
+inline PointOf<Real> Envelope<Real>::support_point(Index i, Point mid, Real size) const {
   const Patch& f = patches_[i];
   if (f.kind == FeatureKind::face) return mid;
-  const double radius = patches_.radius(), most = radius - std::min(size, radius / 2);
-  const double dx = mid.x - f.at.x, dy = mid.y - f.at.y;
+  const Real radius = patches_.radius(), most = radius - std::min(size, radius / 2);
+  const Real dx = mid.x - f.at.x, dy = mid.y - f.at.y;
   if (f.kind == FeatureKind::vertex) {
-    const double square = dx * dx + dy * dy;
+    const Real square = dx * dx + dy * dy;
     if (square <= most * most) return mid;
-    const double s = most / std::sqrt(square);
+    const Real s = most / square_root(square);
     return {f.at.x + s * dx, f.at.y + s * dy};
   }
-  const double aside = dy * f.gx - dx * f.gy;
-  if (std::fabs(aside) <= most) return mid;
-  const double shift = (aside > 0 ? most : -most) - aside;
+  const Real aside = dy * f.gx - dx * f.gy;
+  if (absolute(aside) <= most) return mid;
+  const Real shift = (aside > 0 ? most : -most) - aside;
   return {mid.x - shift * f.gy, mid.y + shift * f.gx};
 }
 
-/// Slope from which a face's plane says little about its height within a box.
-constexpr double steep = 16;
+template <class Real>
+typename Envelope<Real>::Plane Envelope<Real>::plane_of(const Patch& face, Point p) const {
+  return {face.z + (face.gx * (p.x - face.at.x) + face.gy * (p.y - face.at.y)), {face.gx, face.gy}};
+}
+
+/// True if a face's plane says little about its height within a large box.
+template <class Real>
+bool Envelope<Real>::is_steep(const Patch& f) const {
+  return f.kind == FeatureKind::face && absolute(f.gx) + absolute(f.gy) >= 16;
+}
 
 /// A linear function that is nowhere in the part of the box in the patch's domain below the patch.
-inline Envelope::Plane Envelope::support(Index i, const BoxFrame& box) const {
+template <class Real>
+inline typename Envelope<Real>::Plane Envelope<Real>::support(Index i, const BoxFrame& box) const {
   const Patch& f = patches_[i];
   const Point mid = box.mid;
   if (f.kind != FeatureKind::face) {
@@ -106,28 +144,30 @@ inline Envelope::Plane Envelope::support(Index i, const BoxFrame& box) const {
     const Gradient g = patches_.gradient(i, p);
     return {patches_.extended_height(i, p) + g.x * (mid.x - p.x) + g.y * (mid.y - p.y), g};
   }
-  const Plane whole{f.z + (f.gx * (mid.x - f.at.x) + f.gy * (mid.y - f.at.y)), {f.gx, f.gy}};
-  return std::fabs(f.gx) + std::fabs(f.gy) < steep ? whole : support_of_steep(i, whole, box);
+  const Plane whole = plane_of(f, mid);
+  return is_steep(f) ? support_of_steep(i, whole, box) : whole;
 }
 
 /// A steep face that rises towards one of its own sides is not above its height there.
-Envelope::Plane Envelope::support_of_steep(Index i, const Plane& whole, const BoxFrame& box) const {
+template <class Real>
+typename Envelope<Real>::Plane Envelope<Real>::support_of_steep(Index i, const Plane& whole, const BoxFrame& box) const {
   const Patch& f = patches_[i];
   const auto highest = [&](const Plane& t) {
-    return t.height + std::fabs(t.gradient.x) * box.hx + std::fabs(t.gradient.y) * box.hy;
+    return t.height + absolute(t.gradient.x) * box.hx + absolute(t.gradient.y) * box.hy;
   };
   Plane best = whole;
   for (const Bound& b : patches_.bounds(i)) {
-    const double sign = b.sign(), rise = sign * (f.gx * b.nx + f.gy * b.ny);
+    const Real sign = b.sign(), rise = sign * (f.gx * b.nx + f.gy * b.ny);
     if (!(rise > 0)) continue;
-    const double k = sign * rise;
+    const Real k = sign * rise;
     const Plane t{whole.height - k * b.value(box.mid, 0), {f.gx - k * b.nx, f.gy - k * b.ny}};
     if (highest(t) < highest(best)) best = t;
   }
   return best;
 }
 
-bool Envelope::domain_covers(Index i, const BoxFrame& box) const {
+template <class Real>
+bool Envelope<Real>::domain_covers(Index i, const BoxFrame& box) const {
   for (const Bound& b : patches_.bounds(i)) {
     if (!is_within(b, box)) return false;
   }
@@ -137,20 +177,22 @@ bool Envelope::domain_covers(Index i, const BoxFrame& box) const {
 /// The one wall at which the patch's body ends within the box, if there is one and nothing else of the body's outline
 /// meets the box. Inside of it the body is at least as high as its rim: a ball as its centre, a cigar as its axis
 /// beside the place. A bit beyond an edge's ends its line is as good an outline as the circle there.
-std::optional<Envelope::Wall> Envelope::wall_through(Index i, const BoxFrame& box) const {
+template <class Real>
+std::optional<typename Envelope<Real>::Wall> Envelope<Real>::wall_through(Index i, const BoxFrame& box) const {
   const Patch& f = patches_[i];
-  if (f.kind == FeatureKind::vertex) return Wall{{f.at, 0, 0, 0, Bound::Type::disc, true, none, true}, 0};
+  if (f.kind == FeatureKind::vertex) return Wall{{f.at, 0, 0, 0, BoundType::disc, true, none, true, BoundSource::rim, none}, 0};
   if (f.kind == FeatureKind::face) return std::nullopt;
-  const double dx = box.mid.x - f.at.x, dy = box.mid.y - f.at.y, along = dx * f.gx + dy * f.gy;
-  const double spread = std::fabs(f.gx) * box.hx + std::fabs(f.gy) * box.hy + noise_;
-  const double beyond = std::max({0.0, spread - along, along + spread - f.length});
+  const Real dx = box.mid.x - f.at.x, dy = box.mid.y - f.at.y, along = dx * f.gx + dy * f.gy;
+  const Real spread = absolute(f.gx) * box.hx + absolute(f.gy) * box.hy + noise_;
+  const Real beyond = std::max({Real(0), spread - along, along + spread - f.length});
   if (beyond * beyond > patches_.radius() * tolerance_ / 4) return std::nullopt;
   const bool left = dy * f.gx - dx * f.gy > 0;
-  const double limit = left ? patches_.radius() : -patches_.radius();
-  return Wall{{f.at, -f.gy, f.gx, limit, Bound::Type::line, left, none, true}, std::fabs(f.m) * beyond};
+  const Real limit = left ? patches_.radius() : -patches_.radius();
+  return Wall{{f.at, -f.gy, f.gx, limit, BoundType::line, left, none, true, BoundSource::rim, none}, absolute(f.m) * beyond};
 }
 
-std::optional<Bound> Envelope::wall_above(Index upper, Index lower, const Box& box) const {
+template <class Real>
+std::optional<BoundOf<Real>> Envelope<Real>::wall_above(Index upper, Index lower, const Box& box) const {
   const std::optional<Wall> wall = wall_through(upper, BoxFrame(box));
   if (!wall) return std::nullopt;
   const Point mid = box.middle(), p = support_point(lower, mid, box.larger_side());
@@ -165,32 +207,33 @@ std::optional<Bound> Envelope::wall_above(Index upper, Index lower, const Box& b
 }
 
 /// True if the patch lies on the inner side of another one's wall within the box, as far as matters.
-bool Envelope::ends_before(Index i, const Bound& wall, const Box& box) const {
+template <class Real>
+bool Envelope<Real>::ends_before(Index i, const Bound& wall, const Box& box) const {
   const Patch& f = patches_[i];
-  const double tolerance = tolerance_ / 4;
-  if (wall.type == Bound::Type::line) {
+  const Real tolerance = tolerance_ / 4;
+  if (wall.type == BoundType::line) {
     for (const Bound& b : patches_.bounds(i)) {  // its own straight side runs along the wall
-      if (b.type != Bound::Type::line) continue;
-      const double s = -b.sign(), w = -wall.sign();
+      if (b.type != BoundType::line) continue;
+      const Real s = -b.sign(), w = -wall.sign();
       const Point m = box.middle();
-      const double excess = s * b.value(m, 0) - w * wall.value(m, 0);
-      const double spread = std::fabs(s * b.nx - w * wall.nx) * box.half_x() + std::fabs(s * b.ny - w * wall.ny) * box.half_y();
+      const Real excess = s * b.value(m, 0) - w * wall.value(m, 0);
+      const Real spread = absolute(s * b.nx - w * wall.nx) * box.half_x() + absolute(s * b.ny - w * wall.ny) * box.half_y();
       if (excess + spread <= tolerance) return true;
     }
   }
-  if (wall.type == Bound::Type::disc) {
-    const auto is_centre = [&](Point p) { return std::hypot(p.x - wall.at.x, p.y - wall.at.y) <= tolerance; };
+  if (wall.type == BoundType::disc) {
+    const auto is_centre = [&](Point p) { return norm(p.x - wall.at.x, p.y - wall.at.y) <= tolerance; };
     if (f.kind != FeatureKind::edge) return f.kind == FeatureKind::vertex && is_centre(f.at);
     // Beyond its end an edge's body is a ball.
     const Point mid = box.middle();
-    const double along = (mid.x - f.at.x) * f.gx + (mid.y - f.at.y) * f.gy;
-    const double spread =
-        std::fabs(f.gx) * box.half_x() + std::fabs(f.gy) * box.half_y() - std::sqrt(patches_.radius() * tolerance);
+    const Real along = (mid.x - f.at.x) * f.gx + (mid.y - f.at.y) * f.gy;
+    const Real spread =
+        absolute(f.gx) * box.half_x() + absolute(f.gy) * box.half_y() - square_root(patches_.radius() * tolerance);
     if (along + spread <= 0) return is_centre(f.at);
     return along - spread >= f.length && is_centre(f.end());
   }
   const auto beyond = [&](Point p) {  // of the edge's line, towards the wall
-    const double aside = (p.x - wall.at.x) * wall.nx + (p.y - wall.at.y) * wall.ny;
+    const Real aside = (p.x - wall.at.x) * wall.nx + (p.y - wall.at.y) * wall.ny;
     return wall.negative ? aside : -aside;
   };
   if (f.kind == FeatureKind::vertex) return beyond(f.at) <= tolerance;
@@ -207,38 +250,46 @@ bool Envelope::ends_before(Index i, const Bound& wall, const Box& box) const {
 /// from one axis and b + e from the other, and s between b / u(b) at the two, their heights differ by
 ///   level + (q_k - q_c) u(b) + q_c e s,
 /// where level and e are linear in the place.
-bool Envelope::hidden_beside(Index lower, Index upper, const BoxFrame& frame) const {
+template <class Real>
+bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& frame) const {
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (c.kind != FeatureKind::edge || k.kind != FeatureKind::edge) return false;
-  if (std::fabs(c.gx * k.gy - c.gy * k.gx) > 0x1p-8) return false;
+  if (absolute(c.gx * k.gy - c.gy * k.gx) > 0x1p-8) return false;
   const auto aside = [](const Patch& f, Point p) { return (p.y - f.at.y) * f.gx - (p.x - f.at.x) * f.gy; };
-  const double turn = c.gx * k.gx + c.gy * k.gy > 0 ? 1 : -1;
+  const Real turn = c.gx * k.gx + c.gy * k.gy > 0 ? 1 : -1;
   const Box& box = frame.box;
   const std::array<Point, 4> corner = box.corners();
-  double apart[4], widest = 0;
+  Real apart[4], widest = 0;
   for (int i = 0; i < 4; ++i) {
     apart[i] = turn * aside(c, corner[i]) - aside(k, corner[i]);
-    widest = std::max(widest, std::fabs(apart[i]));
+    widest = std::max(widest, absolute(apart[i]));
   }
   if (widest > 0x1p-4 * patches_.radius()) return false;
   for (const Bound& b : patches_.bounds(upper)) {
-    if (b.type == Bound::Type::cone && !is_within(b, frame)) return false;
+    if (b.type == BoundType::cone && !is_within(b, frame)) return false;
   }
-  const double beta = aside(k, frame.mid), square = patches_.square_radius();
-  const double spread = std::fabs(k.gx) * frame.hy + std::fabs(k.gy) * frame.hx;
-  const double near = std::max(0.0, std::fabs(beta) - spread), far = std::fabs(beta) + spread;
-  const double up[2] = {std::sqrt(std::max(0.0, square - far * far)), std::sqrt(std::max(0.0, square - near * near))};
-  double slope[2] = {0, 0};
+  const Real beta = aside(k, frame.mid), square = patches_.square_radius();
+  const Real spread = absolute(k.gx) * frame.hy + absolute(k.gy) * frame.hx;
+  const Real near = std::max(Real(0), absolute(beta) - spread), far = absolute(beta) + spread;
+  const Real up[2] = {square_root(std::max(Real(0), square - far * far)), square_root(std::max(Real(0), square - near * near))};
+  // Where the lower one is nearer to its wall all over the box, it falls the faster the nearer: the least slope is enough.
+  const bool inwards = std::all_of(apart, apart + 4, [&](Real e) { return beta > 0 ? e >= 0 : e <= 0; });
+  Real slope[2] = {0, 0};
   if (widest > tolerance_ / 4) {
-    const double low = beta - spread - widest, high = beta + spread + widest;
-    if (!(std::max(-low, high) < patches_.radius())) return false;
-    slope[0] = low / std::sqrt(square - low * low);
-    slope[1] = high / std::sqrt(square - high * high);
+    const Real low = beta - spread - widest, high = beta + spread + widest;
+    if (std::max(-low, high) < patches_.radius()) {
+      slope[0] = low / square_root(square - low * low);
+      slope[1] = high / square_root(square - high * high);
+    } else if (!inwards || absolute(beta) <= spread) {
+      return false;
+    } else {
+      slope[0] = slope[1] = (beta > 0 ? near : -near) / square_root(square - near * near);
+    }
   }
   for (int i = 0; i < 4; ++i) {
-    const double level = axis_height(upper, corner[i]) - axis_height(lower, corner[i]);
-    for (const double s : slope) {
-      for (const double u : up) {
+    const Real level = axis_height(upper, corner[i]) - axis_height(lower, corner[i]);
+    for (const Real s : slope) {
+      for (const Real u : up) {
         if (!(level + (k.q - c.q) * u + c.q * apart[i] * s > noise_)) return false;
       }
     }
@@ -248,16 +299,17 @@ bool Envelope::hidden_beside(Index lower, Index upper, const BoxFrame& frame) co
 
 /// True if no point of the lower patch lies above the upper one's plane, however tangent to it: with N the plane's normal and
 /// the ball's centre at a + R n, n a unit normal of an edge along d, N.a + R N.n is at most N.a + R sqrt(1 - (N.d)^2).
-bool Envelope::hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const {
+template <class Real>
+bool Envelope<Real>::hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const {
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (k.kind != FeatureKind::face || c.kind == FeatureKind::face) return false;
-  double most = 1;  // of N.n
+  Real most = 1;  // of N.n
   if (c.kind == FeatureKind::edge) {
-    const double x = k.gy * c.m + c.gy, y = c.gx + k.gx * c.m, z = k.gy * c.gx - k.gx * c.gy;  // N x d
-    most = std::sqrt(x * x + y * y + z * z) / (k.q * c.q);
+    const Real x = k.gy * c.m + c.gy, y = c.gx + k.gx * c.m, z = k.gy * c.gx - k.gx * c.gy;  // N x d
+    most = square_root(x * x + y * y + z * z) * (k.flat * c.flat);
   }
-  const double reach = most * patches_.radius() * k.q, slack = noise_ * k.q;
-  const auto above = [&](Point p, double z) {
+  const Real reach = most * patches_.radius() * k.q, slack = noise_ * k.q;
+  const auto above = [&](Point p, Real z) {
     return z + reach - (k.z + k.gx * (p.x - k.at.x) + k.gy * (p.y - k.at.y)) > slack;
   };
   if (above(c.at, c.z)) return false;
@@ -267,25 +319,26 @@ bool Envelope::hidden_below_face(Index lower, Index upper, const BoxFrame& frame
 
 /// True if the lower patch's feature lies in the upper one's or straight below it, and is no part of its border: then so does
 /// all that a ball touches with it.
-bool Envelope::lies_in(Index lower, Index upper) const {
+template <class Real>
+bool Envelope<Real>::lies_in(Index lower, Index upper) const {
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (c.kind == FeatureKind::face || c.kind > k.kind || k.kind == FeatureKind::vertex) return false;
-  const double tolerance = tolerance_ / 4;
+  const Real tolerance = tolerance_ / 4;
   const Point a = c.at, b = c.end();
-  const double top_a = c.z, top_b = c.end_z();
+  const Real top_a = c.z, top_b = c.end_z();
   if (k.kind == FeatureKind::edge) {
     const auto along = [&](Point p) { return (p.x - k.at.x) * k.gx + (p.y - k.at.y) * k.gy; };
-    const auto holds = [&](Point p, double z) {
-      const double t = along(p);
-      return std::fabs((p.y - k.at.y) * k.gx - (p.x - k.at.x) * k.gy) <= tolerance && t >= -tolerance &&
+    const auto holds = [&](Point p, Real z) {
+      const Real t = along(p);
+      return absolute((p.y - k.at.y) * k.gx - (p.x - k.at.x) * k.gy) <= tolerance && t >= -tolerance &&
              t <= k.length + tolerance && z <= k.z + k.m * t + noise_;
     };
     if (c.kind == FeatureKind::vertex) return holds(a, top_a) && along(a) > tolerance_ && along(a) < k.length - tolerance_;
     return c.length < k.length - tolerance_ && holds(a, top_a) && holds(b, top_b);
   }
   // A face's patch is the face itself, moved by R along its normal.
-  const double rise = patches_.radius() / k.q;
-  const auto holds = [&](Point p, double z, double margin) {
+  const Real rise = patches_.radius() * k.flat;
+  const auto holds = [&](Point p, Real z, Real margin) {
     if (z > k.z - rise + k.gx * (p.x - k.at.x - k.gx * rise) + k.gy * (p.y - k.at.y - k.gy * rise) + noise_ * k.q) return false;
     for (const Bound& side : patches_.bounds(upper)) {
       if (side.sign() * side.value({p.x - k.gx * rise, p.y - k.gy * rise}, 0) > -margin) return false;
@@ -298,17 +351,19 @@ bool Envelope::lies_in(Index lower, Index upper) const {
 }
 
 /// True if two straight walls run along each other in the box, each with its patch on its own side and no gap between.
-bool Envelope::back_to_back(const Bound& a, const Bound& b, const Box& box) const {
-  if (a.type != Bound::Type::line || b.type != Bound::Type::line) return false;
-  const double s = a.sign(), t = b.sign();
+template <class Real>
+bool Envelope<Real>::back_to_back(const Bound& a, const Bound& b, const Box& box) const {
+  if (a.type != BoundType::line || b.type != BoundType::line) return false;
+  const Real s = a.sign(), t = b.sign();
   const Point m = box.middle();
-  const double spread = std::fabs(s * a.nx + t * b.nx) * box.half_x() + std::fabs(s * a.ny + t * b.ny) * box.half_y();
+  const Real spread = absolute(s * a.nx + t * b.nx) * box.half_x() + absolute(s * a.ny + t * b.ny) * box.half_y();
   return s * a.value(m, 0) + t * b.value(m, 0) + spread <= tolerance_ / 4;
 }
 
 /// The bodies of a few labels over a box, evaluated at its corners as far as needed: a concave height is least at a
 /// corner, less a plane too.
-class Envelope::Cover {
+template <class Real>
+class Envelope<Real>::Cover {
  public:
   Cover(const Envelope& envelope, const BoxFrame& frame, std::span<const Index> labels)
       : envelope_(envelope), frame_(frame), bodies_(labels.size()), corner_(frame.box.corners()) {
@@ -317,26 +372,33 @@ class Envelope::Cover {
     for (std::size_t k = 0; k < bodies_; ++k) body_[k].label = labels[k];
   }
 
-  /// True if the patch, which lies below the given plane, is nowhere seen.
-  bool hides(Index c, const Plane& plane) {
-    const double hx = plane.gradient.x * frame_.hx, hy = plane.gradient.y * frame_.hy, h = plane.height;
-    const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
-    const int highest = step_ == 2 ? (hx + hy > 0 ? 2 : 0) : hy > 0 ? (hx > 0 ? 2 : 3) : (hx > 0 ? 1 : 0);
-    if (hides(c, t, highest)) return true;
-    // Faces that are nearly vertical have a top, but no tangent plane worth having.
-    const double top = envelope_.patches_[c].top;
-    if (!(top < t[highest])) return false;
-    const double level[4] = {top, top, top, top};
-    return below_one(c, masks(level, highest));
+  /// True if the patch is nowhere seen.
+  bool hides(Index c) {
+    if (hides(c, envelope_.support(c, frame_))) return true;
+    const Patch& f = envelope_.patches_[c];
+    return envelope_.is_steep(f) && hides(c, envelope_.plane_of(f, frame_.mid));
   }
 
  private:
+  /// The same, if it lies below the given plane.
+  bool hides(Index c, const Plane& plane) {
+    const Real hx = plane.gradient.x * frame_.hx, hy = plane.gradient.y * frame_.hy, h = plane.height;
+    const Real t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
+    const int highest = step_ == 2 ? (hx + hy > 0 ? 2 : 0) : hy > 0 ? (hx > 0 ? 2 : 3) : (hx > 0 ? 1 : 0);
+    if (hides(c, t, highest)) return true;
+    // Faces that are nearly vertical have a top, but no tangent plane worth having.
+    const Real top = envelope_.patches_[c].top;
+    if (!(top < t[highest])) return false;
+    const Real level[4] = {top, top, top, top};
+    return below_one(c, masks(level, highest));
+  }
+
   static constexpr std::size_t most = 4;
   using Masks = std::array<unsigned, most>;  // per body: at which corners it is higher
   struct Body {
     Index label;
     std::optional<Wall> wall;     // where the body ends within the box
-    double height[4];             // with a wall: of its rim
+    Real height[4];             // with a wall: of its rim
     unsigned known = 0;
     bool ends = false;
     enum class Covers : std::uint8_t { unknown, no, yes } covers = Covers::unknown;
@@ -344,7 +406,7 @@ class Envelope::Cover {
 
   unsigned all_corners() const { return step_ == 1 ? 15 : 5; }
 
-  bool is_above(Body& b, int i, double t) {
+  bool is_above(Body& b, int i, Real t) {
     if ((b.known >> i & 1) == 0) {
       b.height[i] = envelope_.patches_.body_height(b.label, corner_[i]);
       b.known |= 1u << i;
@@ -369,7 +431,7 @@ class Envelope::Cover {
   }
 
   /// Without any bit if no body is higher at some corner.
-  Masks masks(const double (&t)[4], int first) {
+  Masks masks(const Real (&t)[4], int first) {
     Masks m{};
     for (int n = 0; n < 4; n += step_) {
       const int i = (first + n) & 3;
@@ -400,7 +462,7 @@ class Envelope::Cover {
     return false;
   }
 
-  bool hides(Index c, const double (&t)[4], int highest) {
+  bool hides(Index c, const Real (&t)[4], int highest) {
     const Masks m = masks(t, highest);
     if (below_one(c, m)) return true;
     for (std::size_t k = 0; k < bodies_; ++k) {
@@ -418,10 +480,10 @@ class Envelope::Cover {
   }
 
   /// Below a weighted mean of two bodies, which is concave too and not above the higher one.
-  bool below_mean(const Body& a, const Body& b, const double (&t)[4]) const {
-    double low = 0, high = 1;
+  bool below_mean(const Body& a, const Body& b, const Real (&t)[4]) const {
+    Real low = 0, high = 1;
     for (int i = 0; i < 4; i += step_) {
-      const double slope = a.height[i] - b.height[i], need = t[i] + envelope_.noise_ - b.height[i];
+      const Real slope = a.height[i] - b.height[i], need = t[i] + envelope_.noise_ - b.height[i];
       if (slope > 0) low = std::max(low, need / slope);
       else if (slope < 0) high = std::min(high, need / slope);
       else if (need >= 0) return false;
@@ -437,7 +499,8 @@ class Envelope::Cover {
   Body body_[most];
 };
 
-void Envelope::filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
+template <class Real>
+void Envelope<Real>::filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
                       std::vector<Index>& out) const {
   const BoxFrame frame(box);
   // Where the box is large beside R nothing is hidden below one body.
@@ -461,11 +524,12 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
 
   Cover cover(*this, frame, champions);
   const auto is_hidden = [&](Index c) {
-    if (small && cover.hides(c, support(c, frame))) return true;
+    if (small && cover.hides(c)) return true;
     if (far_ && hidden_by_balls(c, champions, box)) return true;
     if (!small) return false;
     for (const Index k : champions) {
       if (hidden_beside(c, k, frame) || hidden_below_face(c, k, frame) || lies_in(c, k)) return true;
+      if (is_fine && hidden_by_axis(c, k, box)) return true;
     }
     return false;
   };
@@ -477,7 +541,8 @@ void Envelope::filter(const Box& box, std::span<const Index> champions, std::spa
   out.resize(kept);
 }
 
-bool Envelope::stays_hidden(Index c, const Box& box, std::span<const Index> labels, int depth) const {
+template <class Real>
+bool Envelope<Real>::stays_hidden(Index c, const Box& box, std::span<const Index> labels, int depth) const {
   const Box& own = patches_.box(c);
   const Box part{{std::max(box.low.x, own.low.x), std::max(box.low.y, own.low.y)},
                  {std::min(box.high.x, own.high.x), std::min(box.high.y, own.high.y)}};
@@ -485,7 +550,7 @@ bool Envelope::stays_hidden(Index c, const Box& box, std::span<const Index> labe
   const BoxFrame frame(part);
   if (!domain_meets(c, frame)) return true;
   Cover cover(*this, frame, labels);
-  if (cover.hides(c, support(c, frame))) return true;
+  if (cover.hides(c)) return true;
   if (far_ && hidden_by_balls(c, labels, part)) return true;
   if (depth == 0) return false;
   Box first = part, second = part;
@@ -495,24 +560,30 @@ bool Envelope::stays_hidden(Index c, const Box& box, std::span<const Index> labe
 }
 
 /// Bodies are concave, and so are weighted means of two of them: least against a plane at the corners of the box.
-bool Envelope::hidden_within_tolerance(Index i, std::span<const Index> uppers, const Box& box) const {
+template <class Real>
+bool Envelope<Real>::hidden_within_tolerance(Index i, std::span<const Index> uppers, const Box& box) const {
   constexpr std::size_t most = 6;
   if (box.larger_side() >= 2 * patches_.radius()) return false;
   const std::array<Point, 4> corner = box.corners();
   const Plane plane = support(i, BoxFrame(box));
-  const double hx = plane.gradient.x * box.half_x(), hy = plane.gradient.y * box.half_y(), h = plane.height;
-  const double t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
-  std::array<std::array<double, 4>, most> above;  // of the bodies over the plane
+  const Real hx = plane.gradient.x * box.half_x(), hy = plane.gradient.y * box.half_y(), h = plane.height;
+  const Real t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
+  std::array<std::array<Real, 4>, most> above;  // of the bodies over the plane
   std::size_t count = 0;
   for (std::size_t u = 0; u < uppers.size() && count < most; ++u) {
-    for (int k = 0; k < 4; ++k) above[count][k] = patches_.body_height(uppers[u], corner[k]) - t[k] + tolerance_;
-    if (std::find(above[count].begin(), above[count].end(), below_everything) == above[count].end()) ++count;
+    bool reaches = true;
+    for (int k = 0; k < 4 && reaches; ++k) {
+      const Real body = patches_.body_height(uppers[u], corner[k]);
+      reaches = body > below_everything;
+      above[count][k] = body - t[k] + tolerance_;
+    }
+    if (reaches) ++count;
   }
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
-      double low = 0, high = 1;  // weights of a that are enough
+      Real low = 0, high = 1;  // weights of a that are enough
       for (int k = 0; k < 4; ++k) {
-        const double slope = above[a][k] - above[b][k];
+        const Real slope = above[a][k] - above[b][k];
         if (slope > 0) low = std::max(low, -above[b][k] / slope);
         else if (slope < 0) high = std::min(high, -above[b][k] / slope);
         else if (above[b][k] < 0) high = -1;
@@ -522,5 +593,8 @@ bool Envelope::hidden_within_tolerance(Index i, std::span<const Index> uppers, c
   }
   return false;
 }
+
+template class Envelope<double>;
+template class Envelope<DoubleDouble>;
 
 }  // namespace krepl::terrain

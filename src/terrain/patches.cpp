@@ -1,8 +1,5 @@
 #include "terrain/patches.hpp"
 
-#include <algorithm>
-#include <array>
-
 namespace krepl::terrain {
 
 using FeatureKind = Terrain::FeatureKind;
@@ -12,62 +9,94 @@ namespace {
 /// Angles below this, in radians, count as flat or straight: what is left out is 2^-36 R wide.
 constexpr double flat_angle = 0x1p-36;
 
+template <class Real>
 struct Vector3 {
-  double x, y, z;
+  Real x, y, z;
+  Vector3 operator-() const { return {-x, -y, -z}; }
+  friend Vector3 operator+(Vector3 v, Vector3 w) { return {v.x + w.x, v.y + w.y, v.z + w.z}; }
+  friend Vector3 operator-(Vector3 v, Vector3 w) { return {v.x - w.x, v.y - w.y, v.z - w.z}; }
 };
-Vector3 operator-(Point3 p, Point3 q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
-double dot(Vector3 v, Vector3 w) { return v.x * w.x + v.y * w.y + v.z * w.z; }
-Vector3 cross(Vector3 v, Vector3 w) { return {v.y * w.z - v.z * w.y, v.z * w.x - v.x * w.z, v.x * w.y - v.y * w.x}; }
-double length(Vector3 v) { return std::sqrt(dot(v, v)); }
+template <class Real>
+Vector3<Real> vector(Point3 p) {
+  return {p.x, p.y, p.z};
+}
+template <class Real>
+Real dot(Vector3<Real> v, Vector3<Real> w) {
+  return v.x * w.x + v.y * w.y + v.z * w.z;
+}
+template <class Real>
+Vector3<Real> cross(Vector3<Real> v, Vector3<Real> w) {
+  return {v.y * w.z - v.z * w.y, v.z * w.x - v.x * w.z, v.x * w.y - v.y * w.x};
+}
+template <class Real>
+Real length(Vector3<Real> v) {
+  return square_root(dot(v, v));
+}
 
+template <class Real>
 struct Rectangle {
-  Point low{1e300, 1e300}, high{-1e300, -1e300};
-  void add(double x, double y, double margin = 0) {
-    low = {std::min(low.x, x - margin), std::min(low.y, y - margin)};
-    high = {std::max(high.x, x + margin), std::max(high.y, y + margin)};
+  BoxOf<Real> box{{1e300, 1e300}, {-1e300, -1e300}};
+  void add(PointOf<Real> p, Real margin) {
+    box.low = {std::min(box.low.x, p.x - margin), std::min(box.low.y, p.y - margin)};
+    box.high = {std::max(box.high.x, p.x + margin), std::max(box.high.y, p.y + margin)};
   }
 };
 
+template <class Real>
+PointOf<Real> place_of(Point3 p) {
+  return {p.x, p.y};
+}
+
+}  // namespace
+
 /// The normals that a ball touching a vertex from above can have: a convex polygon on the upper unit hemisphere, the part where
 /// u . d <= 0 for the directions d of all edges. Its sides belong to convex edges or to the horizon.
-class NormalPolygon {
+template <class Real>
+class PatchSet<Real>::NormalPolygon {
  public:
+  using Vector = Vector3<Real>;
   static constexpr int most = 64;
-  void add_edge(Vector3 direction, bool convex) {
+
+  void add_edge(Vector direction, bool convex) {
     if (count_ >= most) return;
     direction_[count_++] = direction;
     if (convex) side_[sides_++] = direction;
   }
-  /// Finds the corners. False if the polygon has no inside wider than flat_angle.
-  bool close() {
+  /// Finds the corners.
+  void close() {
     side_[sides_++] = {0, 0, -1};
     for (int i = 0; i < sides_; ++i) {
       for (int j = 0; j < i; ++j) {
-        const Vector3 u = cross(side_[i], side_[j]);
-        const double l = length(u);
+        const Vector u = cross(side_[i], side_[j]);
+        const Real l = length(u);
         if (!(l > 0)) continue;
         // Of two sides that are nearly parallel the corner is known the less.
-        for (const double sign : {1 / l, -1 / l}) add_corner({sign * u.x, sign * u.y, sign * u.z}, 1e-13 + 1e-15 / l);
+        const Real slack = Precision<Real>::corner + Precision<Real>::rounding / l;
+        const Vector unit{u.x / l, u.y / l, u.z / l};
+        add_corner(unit, slack);
+        add_corner(-unit, slack);
       }
     }
-    Vector3 middle{0, 0, 0}, inwards{0, 0, 0};
-    for (int i = 0; i < corners_; ++i) middle = sum(middle, corner_[i]);
-    for (int i = 0; i < sides_; ++i) inwards = {inwards.x - side_[i].x, inwards.y - side_[i].y, inwards.z - side_[i].z};
+  }
+  /// False if it has no inside wider than flat_angle.
+  bool has_inside() const {
+    Vector middle{0, 0, 0}, inwards{0, 0, 0};
+    for (int i = 0; i < corners_; ++i) middle = middle + corner_[i];
+    for (int i = 0; i < sides_; ++i) inwards = inwards - side_[i];
     return corners_ >= 2 && (is_inside(middle) || is_inside(inwards));
   }
-  std::span<const Vector3> corners() const { return {corner_.data(), std::size_t(corners_)}; }
+  std::span<const Vector> corners() const { return {corner_.data(), std::size_t(corners_)}; }
 
  private:
-  static Vector3 sum(Vector3 v, Vector3 w) { return {v.x + w.x, v.y + w.y, v.z + w.z}; }
-  void add_corner(Vector3 u, double slack) {
+  void add_corner(Vector u, Real slack) {
     if (corners_ >= most || u.z < -slack) return;
     for (int i = 0; i < count_; ++i) {
       if (dot(u, direction_[i]) > slack) return;
     }
     corner_[corners_++] = u;
   }
-  bool is_inside(Vector3 u) const {
-    const double least = flat_angle * length(u);
+  bool is_inside(Vector u) const {
+    const Real least = flat_angle * length(u);
     if (!(u.z > least)) return false;
     for (int i = 0; i < count_; ++i) {
       if (!(dot(u, direction_[i]) < -least)) return false;
@@ -75,43 +104,47 @@ class NormalPolygon {
     return true;
   }
 
-  std::array<Vector3, most> direction_, corner_;
-  std::array<Vector3, most + 1> side_;
+  std::array<Vector, most> direction_, corner_;
+  std::array<Vector, most + 1> side_;
   int count_ = 0, sides_ = 0, corners_ = 0;
 };
 
-}  // namespace
-
-void PatchSet::build(const TerrainWindow& window, double radius) {
+template <class Real>
+void PatchSet<Real>::build(const TerrainWindow& window, double radius) {
+  window_ = &window;
   radius_ = radius;
-  square_radius_ = radius * radius;
+  square_radius_ = radius_ * radius_;
   patches_.clear();
   boxes_.clear();
   bounds_.clear();
   corners_.clear();
-  face_edges_.clear();
   edges_.assign(window.edges().size(), {});
-  faces_.assign(window.faces().size(), {0, 0, 0, none});
+  face_patch_.assign(window.faces().size(), none);
   vertex_patch_.assign(window.vertices().size(), none);
-  examine_edges(window);
+  for (Index e = 0; e < edges_.size(); ++e) {
+    place(e);
+    if (window.edges()[e].core) examine(e);
+  }
   // Numbers first, since neighbours name each other: faces, edges, vertices.
   Index number = 0;
-  for (Index f = 0; f < faces_.size(); ++f) {
-    if (window.faces()[f].core && !window.faces()[f].vertical) faces_[f].patch = number++;
+  for (Index f = 0; f < face_patch_.size(); ++f) {
+    if (window.faces()[f].core && !window.faces()[f].vertical) face_patch_[f] = number++;
   }
-  for (Index e = 0; e < edges_.size(); ++e) {
-    if (window.edges()[e].core && edges_[e].shape == EdgeFrame::Shape::convex) edges_[e].patch = number++;
+  for (EdgeFrame& e : edges_) {
+    if (e.shape == EdgeShape::convex) e.patch = number++;
   }
   patches_.reserve(number + window.vertices().size() / 2);
   bounds_.reserve(4 * patches_.capacity());
   patches_.resize(number);
   boxes_.resize(number);
-  examine_vertices(window);  // adds the vertices' patches
-  for (Index f = 0; f < faces_.size(); ++f) {
-    if (faces_[f].patch != none) add_face(window, f);
+  for (Index v = 0; v < vertex_patch_.size(); ++v) {
+    if (window.vertices()[v].core) add_vertex(v);
+  }
+  for (Index f = 0; f < face_patch_.size(); ++f) {
+    if (face_patch_[f] != none) add_face(f);
   }
   for (Index e = 0; e < edges_.size(); ++e) {
-    if (edges_[e].patch != none) add_edge(window, e);
+    if (edges_[e].patch != none) add_edge(e);
   }
   for (Patch& p : patches_) {
     const std::span<const Bound> sides{bounds_.data() + p.first_bound, p.bound_count};
@@ -119,267 +152,416 @@ void PatchSet::build(const TerrainWindow& window, double radius) {
   }
 }
 
-/// The frame of each edge, and which normals its triangles leave free (engines.md, section 3).
-void PatchSet::examine_edges(const TerrainWindow& window) {
-  for (Index i = 0; i < edges_.size(); ++i) {
-    const auto& edge = window.edges()[i];
-    const Point3 a = window.vertices()[edge.a].at, b = window.vertices()[edge.b].at;
-    EdgeFrame& e = edges_[i];
-    e.a = {a.x, a.y};
-    e.z = a.z;
-    e.patch = none;
-    e.end_patch[0] = e.end_patch[1] = none;
-    e.lo_face = e.hi_face = none;
-    e.shape = EdgeFrame::Shape::hidden;
-    const double dx = b.x - a.x, dy = b.y - a.y;
-    e.length = std::sqrt(dx * dx + dy * dy);
-    if (e.length == 0) {
-      e.z = std::max(a.z, b.z);
-      continue;
-    }
-    e.gx = dx / e.length;
-    e.gy = dy / e.length;
-    e.m = (b.z - a.z) / e.length;
-    e.q = std::sqrt(1 + e.m * e.m);
-    if (!edge.core) continue;
-    double lo = -1, lo_up = 0, hi = 1, hi_up = 0;
-    bool hidden = false;
-    for (const Index f : window.faces_of_edge(i)) {
-      const auto& face = window.faces()[f];
-      const Index third = face.vertex[0] + face.vertex[1] + face.vertex[2] - edge.a - edge.b;
-      const Vector3 w = window.vertices()[third].at - a;
-      const double along = w.x * e.gx + w.y * e.gy;
-      const double aside = face.vertical ? 0.0 : w.y * e.gx - w.x * e.gy;
-      const double up = (w.z - e.m * along) / e.q;
-      if (face.vertical || aside == 0) {
-        hidden = hidden || up > 0;
-        continue;
-      }
-      const double size = std::sqrt(aside * aside + up * up);
-      const double b_limit = (aside > 0 ? -up : up) / size, up_limit = std::fabs(aside) / size;
-      if (aside > 0 && (e.hi_face == none || b_limit < hi)) hi = b_limit, hi_up = up_limit, e.hi_face = f;
-      if (aside < 0 && (e.lo_face == none || b_limit > lo)) lo = b_limit, lo_up = up_limit, e.lo_face = f;
-    }
-    if (hidden) continue;
-    e.lo = lo;
-    e.hi = hi;
-    const double sine = hi * lo_up - lo * hi_up, cosine = hi * lo + hi_up * lo_up;
-    if (sine > flat_angle || (cosine < 0 && hi > lo)) {
-      e.shape = EdgeFrame::Shape::convex;
-    } else if (sine >= -flat_angle && cosine > 0 && e.lo_face != none && e.hi_face != none) {
-      e.shape = EdgeFrame::Shape::flat;
+template <class Real>
+void PatchSet<Real>::refine(const TerrainWindow& window, const PatchSet<double>& coarse) {
+  window_ = &window;
+  coarse_ = &coarse;
+  radius_ = coarse.radius();
+  square_radius_ = radius_ * radius_;
+  patches_.clear();
+}
+
+/// Room for all patches: few windows need any.
+template <class Real>
+void PatchSet<Real>::prepare() {
+  if (!patches_.empty()) return;
+  bounds_.clear();
+  corners_.clear();
+  patches_.assign(coarse_->size(), {});
+  boxes_.assign(coarse_->size(), {});
+  edges_.assign(window_->edges().size(), {});
+  loaded_.assign(coarse_->size(), false);
+}
+
+template <class Real>
+void PatchSet<Real>::load(std::span<const Index> patches) {
+  prepare();
+  for (const Index i : patches) load(i);
+}
+
+template <class Real>
+void PatchSet<Real>::load_with_corners(std::span<const Index> patches) {
+  prepare();
+  for (const Index i : patches) {
+    load_corners(i);
+    for (const auto& side : coarse_->bounds(i)) {
+      if (side.partner != none) load_corners(side.partner);
     }
   }
 }
 
-void PatchSet::examine_vertices(const TerrainWindow& window) {
-  for (Index v = 0; v < vertex_patch_.size(); ++v) {
-    if (window.vertices()[v].core) add_vertex(window, v);
+template <class Real>
+void PatchSet<Real>::load_corners(Index i) {
+  load(i);
+  Patch& p = patches_[i];
+  if (p.kind != FeatureKind::vertex || p.corner_count > 0) return;
+  for (const Index e : window_->edges_of_vertex(p.item)) place(e);
+  set_corners(p, normals_of(p.item));
+}
+
+template <class Real>
+void PatchSet<Real>::load(Index i) {
+  if (loaded_[i]) return;
+  loaded_[i] = true;
+  const PatchOf<double>& model = (*coarse_)[i];
+  Patch& p = patches_[i];
+  p.kind = model.kind;
+  p.has_rim = model.has_rim;
+  p.feature = model.feature;
+  p.item = model.item;
+  const BoxOf<double>& box = coarse_->box(i);
+  boxes_[i] = {{box.low.x, box.low.y}, {box.high.x, box.high.y}};
+  if (p.kind == FeatureKind::vertex) set_vertex(p);
+  if (p.kind == FeatureKind::edge) {
+    place(p.item);
+    set_edge(p);
   }
+  if (p.kind == FeatureKind::face) {
+    for (const Index e : window_->faces()[p.item].edge) place(e);
+    set_face(p);
+  }
+  p.first_bound = Index(bounds_.size());
+  p.bound_count = model.bound_count;
+  for (const BoundOf<double>& side : coarse_->bounds(i)) {
+    if (side.edge != none) place(side.edge);
+    Bound b = bound(p, side.source, side.edge);
+    b.negative = side.negative;
+    b.partner = side.partner;
+    b.rim = side.rim;
+    bounds_.push_back(b);
+  }
+}
+
+/// Where an edge is, and in a refined set which normals its triangles leave free.
+template <class Real>
+void PatchSet<Real>::place(Index i) {
+  EdgeFrame& e = edges_[i];
+  if (e.placed) return;
+  e.placed = true;
+  const auto& edge = window_->edges()[i];
+  const Point3 a = window_->vertices()[edge.a].at, b = window_->vertices()[edge.b].at;
+  e.a = place_of<Real>(a);
+  e.z = a.z;
+  const Real dx = Real(b.x) - a.x, dy = Real(b.y) - a.y;
+  e.length = norm(dx, dy);
+  if (e.length == 0) {
+    e.z = std::max(a.z, b.z);
+    return;
+  }
+  e.gx = dx / e.length;
+  e.gy = dy / e.length;
+  e.m = (Real(b.z) - a.z) / e.length;
+  e.q = square_root(1 + e.m * e.m);
+  if (coarse_ == nullptr) return;
+  const auto& model = coarse_->edges_[i];
+  e.shape = model.shape;
+  e.lo_face = model.lo_face;
+  e.hi_face = model.hi_face;
+  if (e.lo_face != none) {
+    const Limit l = limit(i, e.lo_face);
+    e.lo = l.b, e.lo_up = l.up;
+  }
+  if (e.hi_face != none) {
+    const Limit l = limit(i, e.hi_face);
+    e.hi = l.b, e.hi_up = l.up;
+  }
+}
+
+template <class Real>
+typename PatchSet<Real>::Limit PatchSet<Real>::limit(Index i, Index f) const {
+  const auto& edge = window_->edges()[i];
+  const auto& face = window_->faces()[f];
+  const EdgeFrame& e = edges_[i];
+  const Index third = face.vertex[0] + face.vertex[1] + face.vertex[2] - edge.a - edge.b;
+  const Vector3<Real> w = vector<Real>(window_->vertices()[third].at) - vector<Real>(window_->vertices()[edge.a].at);
+  const Real along = w.x * e.gx + w.y * e.gy;
+  const Real aside = face.vertical ? Real(0) : w.y * e.gx - w.x * e.gy;
+  const Real up = (w.z - e.m * along) / e.q;
+  if (aside == 0) return {0, 0, Limit::Side::upright, up > 0};
+  const Real size = norm(aside, up);
+  return {(aside > 0 ? -up : up) / size, absolute(aside) / size, aside > 0 ? Limit::Side::left : Limit::Side::right, false};
+}
+
+/// Which normals the triangles at an edge leave free (engines.md, section 3).
+template <class Real>
+void PatchSet<Real>::examine(Index i) {
+  EdgeFrame& e = edges_[i];
+  if (e.length == 0) return;
+  for (const Index f : window_->faces_of_edge(i)) {
+    const Limit l = limit(i, f);
+    if (l.above) return;
+    if (l.side == Limit::Side::left && (e.hi_face == none || l.b < e.hi)) e.hi = l.b, e.hi_up = l.up, e.hi_face = f;
+    if (l.side == Limit::Side::right && (e.lo_face == none || l.b > e.lo)) e.lo = l.b, e.lo_up = l.up, e.lo_face = f;
+  }
+  const Real sine = e.hi * e.lo_up - e.lo * e.hi_up, cosine = e.hi * e.lo + e.hi_up * e.lo_up;
+  if (sine > flat_angle || (cosine < 0 && e.hi > e.lo)) {
+    e.shape = EdgeShape::convex;
+  } else if (sine >= -flat_angle && cosine > 0 && e.lo_face != none && e.hi_face != none) {
+    e.shape = EdgeShape::flat;
+  }
+}
+
+/// The numbers of a bound; what it means to its patch is left open.
+template <class Real>
+BoundOf<Real> PatchSet<Real>::bound(const Patch& p, BoundSource source, Index edge) const {
+  if (source == BoundSource::rim) return {p.at, 0, 0, 0, BoundType::disc, true, none, true, source, none};
+  const EdgeFrame& e = edges_[edge];
+  Bound b{e.a, -e.gy, e.gx, 0, BoundType::line, false, none, false, source, edge};
+  switch (source) {
+    case BoundSource::low: b.c = radius_ * e.lo; break;
+    case BoundSource::high: b.c = radius_ * e.hi; break;
+    case BoundSource::middle: b.c = radius_ * (e.lo + e.hi) / 2; break;
+    case BoundSource::face: b.c = radius_ * (p.gx * e.gy - p.gy * e.gx) / p.q; break;
+    case BoundSource::start: return {e.a, e.gx, e.gy, e.m, BoundType::cone, false, none, false, source, edge};
+    case BoundSource::end: {
+      const Point at = place_of<Real>(window_->vertices()[window_->edges()[edge].b].at);
+      return {at, -e.gx, -e.gy, -e.m, BoundType::cone, false, none, false, source, edge};
+    }
+    case BoundSource::rim: break;
+  }
+  return b;
+}
+
+template <class Real>
+typename PatchSet<Real>::NormalPolygon PatchSet<Real>::normals_of(Index v) const {
+  NormalPolygon polygon;
+  for (const Index i : window_->edges_of_vertex(v)) {
+    const EdgeFrame& e = edges_[i];
+    if (e.length == 0) continue;
+    const Vector3<Real> d{e.gx / e.q, e.gy / e.q, e.m / e.q};
+    polygon.add_edge(window_->edges()[i].a == v ? d : -d, e.shape == EdgeShape::convex);
+  }
+  polygon.close();
+  return polygon;
 }
 
 /// The sphere about a vertex, where the normals that all its edges leave free have an inside.
-void PatchSet::add_vertex(const TerrainWindow& window, Index v) {
-  const Point3 at = window.vertices()[v].at;
-  const auto around = window.edges_of_vertex(v);
-  struct Direction {
-    double gx, gy, m, q;
-    Index edge;
-    bool at_a;
-  };
-  std::array<Direction, 60> direction;
-  int count = 0;
-  int convex_count = 0;
-  NormalPolygon polygon;
-  bool open = true;
-  for (const Index i : around) {
-    const EdgeFrame& e = edges_[i];
-    const bool at_a = window.edges()[i].a == v;
-    if (e.length == 0) {
-      const Index other = at_a ? window.edges()[i].b : window.edges()[i].a;
-      open = open && window.vertices()[other].at.z < at.z;
-      continue;
-    }
-    const double sign = at_a ? 1 : -1;
-    const Direction d{sign * e.gx, sign * e.gy, sign * e.m, e.q, i, at_a};
-    if (e.shape == EdgeFrame::Shape::convex) ++convex_count;
-    polygon.add_edge({d.gx / d.q, d.gy / d.q, d.m / d.q}, e.shape == EdgeFrame::Shape::convex);
-    if (count < int(direction.size())) direction[count++] = d;
+template <class Real>
+void PatchSet<Real>::add_vertex(Index v) {
+  const Point3 at = window_->vertices()[v].at;
+  bool open = true, has_convex = false;
+  for (const Index i : window_->edges_of_vertex(v)) {
+    const auto& edge = window_->edges()[i];
+    has_convex = has_convex || edges_[i].shape == EdgeShape::convex;
+    if (edges_[i].length == 0) open = open && window_->vertices()[edge.a == v ? edge.b : edge.a].at.z < at.z;
   }
-  const auto unit = [](const Direction& d) { return Vector3{d.gx / d.q, d.gy / d.q, d.m / d.q}; };
-  open = open && convex_count > 0 && polygon.close();
-  if (!open) {
-    // Two edges in one line: their cylinders continue each other without a sphere between them.
-    for (int i = 0; i < count; ++i) {
-      for (int j = 0; j < i; ++j) {
-        EdgeFrame &e = edges_[direction[i].edge], &f = edges_[direction[j].edge];
-        if (e.patch == none || f.patch == none) continue;
-        const Vector3 u = unit(direction[i]), w = unit(direction[j]);
-        if (length(cross(u, w)) > flat_angle || dot(u, w) > 0) continue;
-        e.end_patch[direction[i].at_a ? 0 : 1] = f.patch;
-        f.end_patch[direction[j].at_a ? 0 : 1] = e.patch;
-      }
-    }
-    return;
-  }
+  if (!open || !has_convex) return continue_straight(v);
+  const NormalPolygon polygon = normals_of(v);
+  if (!polygon.has_inside()) return continue_straight(v);
 
   const Index patch = Index(patches_.size());
   vertex_patch_[v] = patch;
   Patch p{};
   p.kind = FeatureKind::vertex;
-  p.feature = window.vertices()[v].feature;
-  p.at = {at.x, at.y};
-  p.z = at.z;
+  p.feature = window_->vertices()[v].feature;
+  p.item = v;
+  set_vertex(p);
+  set_corners(p, polygon);
   p.first_bound = Index(bounds_.size());
-  for (int j = 0; j < count; ++j) {
-    const Direction& d = direction[j];
-    double nearest = -1;
-    for (const Vector3 u : polygon.corners()) nearest = std::max(nearest, dot(u, unit(d)));
+  for (const Index i : window_->edges_of_vertex(v)) {
+    EdgeFrame& e = edges_[i];
+    if (e.length == 0) continue;
+    const bool at_a = window_->edges()[i].a == v;
+    Bound b = bound(p, at_a ? BoundSource::start : BoundSource::end, i);
+    Real nearest = -1;
+    for (const Vector3<Real> u : polygon.corners()) nearest = std::max(nearest, (u.x * b.nx + u.y * b.ny + u.z * b.c) / e.q);
     if (nearest < -1e-9) continue;  // the others imply it
-    const Index beyond = edges_[d.edge].patch;
-    bounds_.push_back({p.at, d.gx, d.gy, d.m, Bound::Type::cone, true, beyond, false});
-    if (beyond != none) edges_[d.edge].end_patch[d.at_a ? 0 : 1] = patch;
+    b.negative = true;
+    b.partner = e.patch;
+    bounds_.push_back(b);
+    if (e.patch != none) e.end_patch[at_a ? 0 : 1] = patch;
   }
-  Rectangle box;
   bool to_horizon = false;
-  double widest = 0;
-  for (const Vector3 c : polygon.corners()) {
-    for (const Vector3 d : polygon.corners()) widest = std::max(widest, length({c.x - d.x, c.y - d.y, c.z - d.z}));
+  Rectangle<Real> r;
+  Real widest = 0;
+  for (const Vector3<Real> c : polygon.corners()) {
+    for (const Vector3<Real> d : polygon.corners()) widest = std::max(widest, length(c - d));
     to_horizon = to_horizon || c.z < 1e-9;
   }
-  const double bulge = 1 - std::sqrt(std::max(0.0, 1 - widest * widest / 4)) + 1e-12;  // of a side over its chord
-  p.first_corner = Index(corners_.size());
-  p.corner_count = Index(polygon.corners().size());
-  for (const Vector3 c : polygon.corners()) {
-    box.add(at.x + radius_ * c.x, at.y + radius_ * c.y, radius_ * bulge);
-    corners_.push_back({at.x + radius_ * c.x, at.y + radius_ * c.y});
-  }
-  if (to_horizon) bounds_.push_back({p.at, 0, 0, 0, Bound::Type::disc, true, none, true});
+  const Real bulge = 1 - square_root(std::max(Real(0), 1 - widest * widest / 4)) + 1e-12;  // of a side over its chord
+  for (std::size_t k = 0; k < p.corner_count; ++k) r.add(corners_[p.first_corner + k], radius_ * bulge);
+  if (to_horizon) bounds_.push_back(bound(p, BoundSource::rim, none));
   p.bound_count = Index(bounds_.size()) - p.first_bound;
-  p.top = at.z + radius_;
   patches_.push_back(p);
-  boxes_.push_back({box.low, box.high});
+  boxes_.push_back(r.box);
 }
 
-void PatchSet::add_edge(const TerrainWindow& window, Index i) {
+/// Two edges in one line: their cylinders continue each other without a sphere between them.
+template <class Real>
+void PatchSet<Real>::continue_straight(Index v) {
+  const auto around = window_->edges_of_vertex(v);
+  const auto direction = [&](Index i) {
+    const EdgeFrame& e = edges_[i];
+    const Vector3<Real> d{e.gx / e.q, e.gy / e.q, e.m / e.q};
+    return window_->edges()[i].a == v ? d : -d;
+  };
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EdgeFrame &e = edges_[around[i]], &f = edges_[around[j]];
+      if (e.patch == none || f.patch == none) continue;
+      const Vector3<Real> u = direction(around[i]), w = direction(around[j]);
+      if (length(cross(u, w)) > flat_angle || dot(u, w) > 0) continue;
+      e.end_patch[window_->edges()[around[i]].a == v ? 0 : 1] = f.patch;
+      f.end_patch[window_->edges()[around[j]].a == v ? 0 : 1] = e.patch;
+    }
+  }
+}
+
+template <class Real>
+void PatchSet<Real>::set_vertex(Patch& p) {
+  const Point3 at = window_->vertices()[p.item].at;
+  p.at = place_of<Real>(at);
+  p.z = at.z;
+  p.top = p.z + radius_;
+}
+
+template <class Real>
+void PatchSet<Real>::set_corners(Patch& p, const NormalPolygon& polygon) {
+  p.first_corner = Index(corners_.size());
+  p.corner_count = Index(polygon.corners().size());
+  for (const Vector3<Real> c : polygon.corners()) corners_.push_back({p.at.x + radius_ * c.x, p.at.y + radius_ * c.y});
+}
+
+template <class Real>
+void PatchSet<Real>::add_edge(Index i) {
   const EdgeFrame& e = edges_[i];
-  const auto& edge = window.edges()[i];
-  const Point3 b = window.vertices()[edge.b].at;
   Patch& p = patches_[e.patch];
   p.kind = FeatureKind::edge;
-  p.feature = edge.feature;
+  p.feature = window_->edges()[i].feature;
+  p.item = i;
+  set_edge(p);
+  p.first_bound = Index(bounds_.size());
+  for (const bool high : {true, false}) {
+    const Index face = high ? e.hi_face : e.lo_face;
+    Bound b = bound(p, high ? BoundSource::high : BoundSource::low, i);
+    b.negative = high;
+    b.partner = face == none ? none : face_patch_[face];
+    b.rim = face == none;
+    bounds_.push_back(b);
+  }
+  for (int end = 0; end < 2; ++end) {
+    const Index other = e.end_patch[end];
+    Bound b = bound(p, end == 0 ? BoundSource::start : BoundSource::end, i);
+    if (other != none && patches_[other].kind != FeatureKind::vertex && other < e.patch) {
+      // The straight neighbour with the lower number has the function, so that the two agree.
+      for (const Bound& theirs : bounds(other)) {
+        if (theirs.partner != e.patch || theirs.type != BoundType::cone) continue;
+        b = theirs;
+        b.negative = true;
+      }
+    }
+    b.partner = other;
+    bounds_.push_back(b);
+  }
+  p.bound_count = Index(bounds_.size()) - p.first_bound;
+  const Real most_up = e.lo < 0 && e.hi > 0 ? Real(1) : std::max(e.lo_up, e.hi_up), least_up = std::min(e.lo_up, e.hi_up);
+  const Point3 b = window_->vertices()[window_->edges()[i].b].at;
+  Rectangle<Real> r;
+  for (const Real up : {least_up, most_up}) {
+    const Real shift = -e.m / e.q * up * radius_;
+    for (const Real aside : {e.lo * radius_, e.hi * radius_}) {
+      for (const Point end : {e.a, place_of<Real>(b)}) {
+        r.add({end.x + shift * e.gx - aside * e.gy, end.y + shift * e.gy + aside * e.gx}, 1e-12 * radius_);
+      }
+    }
+  }
+  boxes_[e.patch] = r.box;
+}
+
+template <class Real>
+void PatchSet<Real>::set_edge(Patch& p) {
+  const EdgeFrame& e = edges_[p.item];
+  const Point3 b = window_->vertices()[window_->edges()[p.item].b].at;
   p.at = e.a;
   p.z = e.z;
   p.gx = e.gx;
   p.gy = e.gy;
   p.m = e.m;
   p.q = e.q;
+  p.flat = 1 / e.q;
   p.length = e.length;
-  p.first_bound = Index(bounds_.size());
-  const auto face_patch = [&](Index f) { return f == none ? none : faces_[f].patch; };
-  bounds_.push_back({e.a, -e.gy, e.gx, radius_ * e.hi, Bound::Type::line, true, face_patch(e.hi_face), e.hi_face == none});
-  bounds_.push_back({e.a, -e.gy, e.gx, radius_ * e.lo, Bound::Type::line, false, face_patch(e.lo_face), e.lo_face == none});
-  for (int end = 0; end < 2; ++end) {
-    const double sign = end == 0 ? 1 : -1;
-    const Point at = end == 0 ? e.a : Point{b.x, b.y};
-    Bound bound{at, sign * e.gx, sign * e.gy, sign * e.m, Bound::Type::cone, false, e.end_patch[end], false};
-    const Index other = e.end_patch[end];
-    if (other != none && other < patches_.size() && patches_[other].kind != FeatureKind::vertex && other < e.patch) {
-      // The straight neighbour with the lower number has the function, so that the two agree.
-      for (const Bound& theirs : bounds(other)) {
-        if (theirs.partner != e.patch || theirs.type != Bound::Type::cone) continue;
-        bound = theirs;
-        bound.negative = true;
-        bound.partner = other;
-      }
-    }
-    bounds_.push_back(bound);
-  }
-  p.bound_count = Index(bounds_.size()) - p.first_bound;
+  const Real most_up = e.lo < 0 && e.hi > 0 ? Real(1) : std::max(e.lo_up, e.hi_up);
+  p.top = std::max(e.z, Real(b.z)) + radius_ * most_up / e.q;
   p.first_corner = Index(corners_.size());
   p.corner_count = 4;
-  const double lo_up = std::sqrt(std::max(0.0, 1 - e.lo * e.lo)), hi_up = std::sqrt(std::max(0.0, 1 - e.hi * e.hi));
-  const double most_up = e.lo < 0 && e.hi > 0 ? 1 : std::max(lo_up, hi_up), least_up = std::min(lo_up, hi_up);
   for (const bool at_hi : {false, true}) {
-    const double aside = radius_ * (at_hi ? e.hi : e.lo), shift = -e.m / e.q * (at_hi ? hi_up : lo_up) * radius_;
-    for (const Point end : {e.a, Point{b.x, b.y}}) {
+    const Real aside = radius_ * (at_hi ? e.hi : e.lo), shift = -e.m / e.q * (at_hi ? e.hi_up : e.lo_up) * radius_;
+    for (const Point end : {e.a, place_of<Real>(b)}) {
       corners_.push_back({end.x + shift * e.gx - aside * e.gy, end.y + shift * e.gy + aside * e.gx});
     }
   }
-  Rectangle box;
-  for (const double up : {least_up, most_up}) {
-    const double shift = -e.m / e.q * up * radius_;
-    for (const double aside : {e.lo * radius_, e.hi * radius_}) {
-      for (const double along : {0.0, e.length}) {
-        box.add(e.a.x + (along + shift) * e.gx - aside * e.gy, e.a.y + (along + shift) * e.gy + aside * e.gx, 1e-12 * radius_);
-      }
-    }
-  }
-  boxes_[e.patch] = {box.low, box.high};
-  p.top = std::max(e.z, b.z) + radius_ * most_up / e.q;
 }
 
-void PatchSet::add_face(const TerrainWindow& window, Index f) {
-  const auto& face = window.faces()[f];
-  const auto at = [&](int i) { return window.vertices()[face.vertex[i % 3]].at; };
-  const Vector3 normal = cross(at(1) - at(0), at(2) - at(0));
-  const double size = length(normal);
-  const double nx = normal.x / size, ny = normal.y / size, nz = normal.z / size;
-  Patch& p = patches_[faces_[f].patch];
+template <class Real>
+void PatchSet<Real>::add_face(Index f) {
+  const auto& face = window_->faces()[f];
+  Patch& p = patches_[face_patch_[f]];
   p.kind = FeatureKind::face;
   p.feature = face.feature;
+  p.item = f;
+  set_face(p);
+  p.first_bound = Index(bounds_.size());
+  Rectangle<Real> r;
+  for (int i = 0; i < 3; ++i) {
+    r.add(corners_[p.first_corner + Index(i)], 1e-12 * radius_);
+    const EdgeFrame& e = edges_[face.edge[i]];
+    const Point3 third = window_->vertices()[face.vertex[(i + 2) % 3]].at;
+    const bool left = (third.y - e.a.y) * e.gx - (third.x - e.a.x) * e.gy > 0;
+    const bool at_hi = e.hi_face == f, at_lo = e.lo_face == f;
+    BoundSource source = BoundSource::face;
+    if (at_hi || at_lo) {
+      if (e.shape == EdgeShape::convex) source = at_hi ? BoundSource::high : BoundSource::low;
+      if (e.shape == EdgeShape::flat) source = BoundSource::middle;
+    }
+    Bound b = bound(p, source, face.edge[i]);
+    b.negative = source == BoundSource::face ? !left : at_lo;
+    if (source == BoundSource::middle) b.partner = face_patch_[at_hi ? e.lo_face : e.hi_face];
+    else if (source != BoundSource::face) b.partner = e.patch;
+    bounds_.push_back(b);
+  }
+  p.bound_count = 3;
+  boxes_[face_patch_[f]] = r.box;
+}
+
+template <class Real>
+void PatchSet<Real>::set_face(Patch& p) {
+  const auto& face = window_->faces()[p.item];
+  const auto at = [&](int i) { return vector<Real>(window_->vertices()[face.vertex[i]].at); };
+  const Vector3<Real> normal = cross(at(1) - at(0), at(2) - at(0));
+  const Real size = length(normal);
+  const Real nx = normal.x / size, ny = normal.y / size, nz = normal.z / size;
   p.at = {at(0).x + radius_ * nx, at(0).y + radius_ * ny};
   p.z = at(0).z + radius_ * nz;
   p.gx = -nx / nz;
   p.gy = -ny / nz;
-  p.q = std::sqrt(1 + p.gx * p.gx + p.gy * p.gy);
-  p.first_bound = Index(bounds_.size());
-  p.length = double(face_edges_.size());
-  face_edges_.push_back(face.edge);
+  p.q = square_root(1 + p.gx * p.gx + p.gy * p.gy);
+  p.flat = nz;
+  p.top = std::max({at(0).z, at(1).z, at(2).z}) + radius_ * nz;
   p.first_corner = Index(corners_.size());
   p.corner_count = 3;
-  Rectangle box;
-  for (int i = 0; i < 3; ++i) {
-    corners_.push_back({at(i).x + radius_ * nx, at(i).y + radius_ * ny});
-    box.add(at(i).x + radius_ * nx, at(i).y + radius_ * ny, 1e-12 * radius_);
-    const EdgeFrame& e = edges_[face.edge[i]];
-    const Point3 third = at(i + 2);
-    const bool left = (third.y - e.a.y) * e.gx - (third.x - e.a.x) * e.gy > 0;
-    Bound bound{e.a, -e.gy, e.gx, radius_ * (ny * e.gx - nx * e.gy), Bound::Type::line, !left, none, false};
-    const bool at_hi = e.hi_face == f, at_lo = e.lo_face == f;
-    if (e.shape == EdgeFrame::Shape::convex && (at_hi || at_lo) && e.patch != none) {
-      bound.c = radius_ * (at_hi ? e.hi : e.lo);
-      bound.negative = at_lo;
-      bound.partner = e.patch;
-    } else if (e.shape == EdgeFrame::Shape::flat && (at_hi || at_lo)) {
-      bound.c = radius_ * (e.lo + e.hi) / 2;
-      bound.negative = at_lo;
-      bound.partner = faces_[at_hi ? e.lo_face : e.hi_face].patch;
-    }
-    bounds_.push_back(bound);
-  }
-  p.bound_count = 3;
-  boxes_[faces_[f].patch] = {box.low, box.high};
-  p.top = std::max({at(0).z, at(1).z, at(2).z}) + radius_ * nz;
+  for (int i = 0; i < 3; ++i) corners_.push_back({at(i).x + radius_ * nx, at(i).y + radius_ * ny});
 }
 
-double PatchSet::ball_height(Point at, double z, Point p) const {
-  const double dx = p.x - at.x, dy = p.y - at.y;
-  const double under = square_radius_ - (dx * dx + dy * dy);
-  return under > 0 ? z + std::sqrt(under) : below_everything;
+template <class Real>
+Real PatchSet<Real>::ball_height(Point at, Real z, Point p) const {
+  const Real dx = p.x - at.x, dy = p.y - at.y;
+  const Real under = square_radius_ - (dx * dx + dy * dy);
+  return under > 0 ? z + square_root(under) : below_everything;
 }
 
-double PatchSet::height(Index i, Point p) const { return contains(i, p) ? extended_height(i, p) : below_everything; }
+template <class Real>
+Real PatchSet<Real>::height(Index i, Point p) const { return contains(i, p) ? extended_height(i, p) : below_everything; }
 
-double PatchSet::cigar_height(Index edge, Point p) const {
+template <class Real>
+Real PatchSet<Real>::cigar_height(Index edge, Point p) const {
   const EdgeFrame& e = edges_[edge];
   if (e.length == 0) return ball_height(e.a, e.z, p);
-  const double dx = p.x - e.a.x, dy = p.y - e.a.y;
-  const double along = dx * e.gx + dy * e.gy, aside = dy * e.gx - dx * e.gy;
-  const double under = square_radius_ - aside * aside;
+  const Real dx = p.x - e.a.x, dy = p.y - e.a.y;
+  const Real along = dx * e.gx + dy * e.gy, aside = dy * e.gx - dx * e.gy;
+  const Real under = square_radius_ - aside * aside;
   if (!(under > 0)) return below_everything;
-  const double up = std::sqrt(under);
-  const double contact = along + e.m / e.q * up;
+  const Real up = square_root(under);
+  const Real contact = along + e.m / e.q * up;
   if (contact < 0) return ball_height(e.a, e.z, p);
   if (contact > e.length) {
     return ball_height({e.a.x + e.length * e.gx, e.a.y + e.length * e.gy}, e.z + e.m * e.length, p);
@@ -387,25 +569,26 @@ double PatchSet::cigar_height(Index edge, Point p) const {
   return e.z + e.m * along + e.q * up;
 }
 
-double PatchSet::body_height(Index i, Point p) const {
+template <class Real>
+Real PatchSet<Real>::body_height(Index i, Point p) const {
   const Patch& f = patches_[i];
   if (f.kind == FeatureKind::vertex) return extended_height(i, p);
   if (f.kind == FeatureKind::edge) {
-    const double dx = p.x - f.at.x, dy = p.y - f.at.y;
-    const double along = dx * f.gx + dy * f.gy, aside = dy * f.gx - dx * f.gy;
-    const double under = square_radius_ - aside * aside;
+    const Real dx = p.x - f.at.x, dy = p.y - f.at.y;
+    const Real along = dx * f.gx + dy * f.gy, aside = dy * f.gx - dx * f.gy;
+    const Real under = square_radius_ - aside * aside;
     if (!(under > 0)) return below_everything;
-    const double up = std::sqrt(under);
-    const double contact = along + f.m / f.q * up;
+    const Real up = square_root(under);
+    const Real contact = along + f.m * f.flat * up;
     if (contact < 0) return ball_height(f.at, f.z, p);
     if (contact > f.length) {
       return ball_height(f.end(), f.end_z(), p);
     }
     return f.z + f.m * along + f.q * up;
   }
-  double highest = below_everything;
+  Real highest = below_everything;
   bool inside = true;
-  const auto& sides = face_edges_[Index(f.length)];
+  const auto& sides = window_->faces()[f.item].edge;
   const std::span<const Bound> limits = bounds(i);
   for (int s = 0; s < 3; ++s) {
     if (limits[s].contains(p, square_radius_)) continue;
@@ -414,5 +597,8 @@ double PatchSet::body_height(Index i, Point p) const {
   }
   return inside ? f.z + (f.gx * (p.x - f.at.x) + f.gy * (p.y - f.at.y)) : highest;
 }
+
+template class PatchSet<double>;
+template class PatchSet<DoubleDouble>;
 
 }  // namespace krepl::terrain

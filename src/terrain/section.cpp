@@ -5,15 +5,17 @@
 // Labels along a line.
 namespace krepl::terrain {
 
-struct Envelope::Line {
+template <class Real>
+struct Envelope<Real>::Line {
   bool vertical;
-  double at;
-  Point point(double t) const { return vertical ? Point{at, t} : Point{t, at}; }
-  Box box(double t0, double t1) const { return {point(t0), point(t1)}; }
+  Real at;
+  Point point(Real t) const { return vertical ? Point{at, t} : Point{t, at}; }
+  Box box(Real t0, Real t1) const { return {point(t0), point(t1)}; }
 };
 
-void Envelope::section(bool vertical, double at, double from, double to, Index start, Index end,
-                       std::span<const Index> candidates, std::vector<Crossing>& out) {
+template <class Real>
+void Envelope<Real>::section(bool vertical, double at, double from, double to, Index start, Index end,
+                       std::span<const Index> candidates, std::vector<LineCrossing>& out) {
   ++counters_.lines;
   out_ = &out;
   stack_.assign(candidates.begin(), candidates.end());
@@ -24,17 +26,19 @@ void Envelope::section(bool vertical, double at, double from, double to, Index s
 
 /// Where patches are equally high along a curve, or tangent to each other's borders, rounding alone decides what shows
 /// between them.
-void Envelope::drop_slivers(const Line& line, Index start, std::size_t first, std::vector<Crossing>& crossings) const {
+template <class Real>
+void Envelope<Real>::drop_slivers(const Line& line, Index start, std::size_t first,
+                                  std::vector<LineCrossing>& crossings) const {
   std::size_t kept = first;
   const auto label_before = [&](std::size_t i) { return i == first ? start : crossings[i - 1].after; };
   // A line may run aslant through what is thin.
-  const auto sine = [&](Index before, const Crossing& c) {  // of the angle between the line and the curve
+  const auto sine = [&](Index before, const LineCrossing& c) {  // of the angle between the line and the curve
     const Gradient g = gradient_across(before, c.after, c.meeting, line.point(c.t));
-    const double size = std::hypot(g.x, g.y);
-    return size > 0 ? std::fabs(line.vertical ? g.y : g.x) / size : 1.0;
+    const Real size = norm(g.x, g.y);
+    return size > 0 ? absolute(line.vertical ? g.y : g.x) / size : Real(1);
   };
   const auto width = [&](std::size_t i) {  // between the last crossing kept and the i-th
-    const double along = crossings[i].t - crossings[kept - 1].t;
+    const Real along = crossings[i].t - crossings[kept - 1].t;
     if (along > 0x1p12 * tolerance_) return along;
     return along * std::max(sine(label_before(kept - 1), crossings[kept - 1]), sine(crossings[kept - 1].after, crossings[i]));
   };
@@ -54,7 +58,8 @@ void Envelope::drop_slivers(const Line& line, Index start, std::size_t first, st
 }
 
 /// stack_[first ..]: the candidates of the stretch around this one.
-void Envelope::section(const Line& line, double t0, Index l0, double t1, Index l1, std::size_t first, int depth) {
+template <class Real>
+void Envelope<Real>::section(const Line& line, Real t0, Index l0, Real t1, Index l1, std::size_t first, int depth) {
   const std::size_t begin = stack_.size();
   const std::array<Index, 2> ends{l0, l1};
   std::array<Index, 2> champions;
@@ -75,7 +80,7 @@ void Envelope::section(const Line& line, double t0, Index l0, double t1, Index l
   } else {
     stack_.insert(stack_.end(), stack_.begin() + std::ptrdiff_t(first), stack_.begin() + std::ptrdiff_t(begin));
   }
-  const bool tiny = t1 - t0 <= smallest_stretch_ || depth > 60;
+  const bool tiny = t1 - t0 <= smallest_stretch_ || depth > 100;
   if (l0 == l1 && (tiny || (!others && l0 != none))) {
     // One label only: its domain may have a notch, but then another label would be left.
     stack_.resize(begin);
@@ -84,24 +89,33 @@ void Envelope::section(const Line& line, double t0, Index l0, double t1, Index l
   if (l0 == l1 && l0 == none && stack_.size() == begin) return;
   if (l0 != l1 && (tiny || (!others && single_crossing(line, t0, l0, t1, l1)))) {
     Meeting how = Meeting::rim;
-    const double t = tiny ? (t0 + t1) / 2 : locate(line, t0, l0, t1, l1, how);
+    const Real t = tiny ? (t0 + t1) / 2 : locate(line, t0, l0, t1, l1, how);
     if (tiny) how = meeting(l0, l1, line.point(t));
-    out_->push_back({t, l1, how});
+    out_->push_back({double(t), l1, how});
     stack_.resize(begin);
     return;
   }
-  const double tm = t0 + (t1 - t0) / 2;
-  const Index lm = winner(line.point(tm), {stack_.data() + begin, stack_.size() - begin});
+  const std::span<const Index> left(stack_.data() + begin, stack_.size() - begin);
+  if (t1 - t0 <= fine_cell_) {
+    if (Envelope<DoubleDouble>* finer = this->finer(left)) {
+      finer->section(line.vertical, double(line.at), double(t0), double(t1), l0, l1, left, *out_);
+      stack_.resize(begin);
+      return;
+    }
+  }
+  const Real tm = t0 + (t1 - t0) / 2;
+  const Index lm = winner(line.point(tm), left);
   section(line, t0, l0, tm, lm, begin, depth + 1);
   section(line, tm, lm, t1, l1, begin, depth + 1);
   stack_.resize(begin);
 }
 
 /// True if the domain of the first label, which holds t0, ends before that of the second begins, which holds t1.
-bool Envelope::gap(const Line& line, double t0, Index l0, double t1, Index l1) const {
-  const auto last_within = [&](double inside, double outside, Index l) {
-    for (int i = 0; i < 60 && std::fabs(outside - inside) > tolerance_ / 4; ++i) {
-      const double m = inside + (outside - inside) / 2;
+template <class Real>
+bool Envelope<Real>::gap(const Line& line, Real t0, Index l0, Real t1, Index l1) const {
+  const auto last_within = [&](Real inside, Real outside, Index l) {
+    for (int i = 0; i < 60 && absolute(outside - inside) > tolerance_ / 4; ++i) {
+      const Real m = inside + (outside - inside) / 2;
       (patches_.contains(l, line.point(m)) ? inside : outside) = m;
     }
     return inside;
@@ -110,7 +124,8 @@ bool Envelope::gap(const Line& line, double t0, Index l0, double t1, Index l1) c
 }
 
 /// True if the two labels, the only ones left, certainly change once. Concave heights have descending derivatives.
-bool Envelope::single_crossing(const Line& line, double t0, Index l0, double t1, Index l1) const {
+template <class Real>
+bool Envelope<Real>::single_crossing(const Line& line, Real t0, Index l0, Real t1, Index l1) const {
   if (l0 == none || l1 == none) return t1 - t0 < patches_.radius() / 16;
   if (patches_.seam(l0, l1) != nullptr) return true;
   const Point p = line.point(t0), q = line.point(t1);
@@ -126,18 +141,19 @@ bool Envelope::single_crossing(const Line& line, double t0, Index l0, double t1,
 }
 
 /// Where a function with values of different sign at a and b is zero, by the secant.
+template <class Real>
 template <class Function>
-double Envelope::root(const Function& value, double a, double fa, double b, double fb) const {
+Real Envelope<Real>::root(const Function& value, Real a, Real fa, Real b, Real fb) const {
   // Illinois: halving the value of the end that stays so that both ends move.
-  double last = (a + b) / 2;
+  Real last = (a + b) / 2;
   for (int i = 0, side = 0; i < 80; ++i) {
-    double m = a - fa * (b - a) / (fb - fa);
+    Real m = a - fa * (b - a) / (fb - fa);
     if (!(m > a)) return a;  // but for rounding it lies between
     if (!(m < b)) return b;
     if (i % 16 == 15) m = a + (b - a) / 2;
-    if (std::fabs(m - last) <= smallest_stretch_) break;
+    if (absolute(m - last) <= smallest_stretch_) break;
     last = m;
-    const double fm = value(m);
+    const Real fm = value(m);
     if (fm == 0) break;
     if ((fm > 0) == (fa > 0)) {
       a = m;
@@ -156,34 +172,41 @@ double Envelope::root(const Function& value, double a, double fa, double b, doub
 
 /// The place of the one change from l0 to l1: where the function that they share is zero, or the heights are equal, else by
 /// bisection.
-double Envelope::locate(const Line& line, double t0, Index l0, double t1, Index l1, Meeting& how) const {
+template <class Real>
+Real Envelope<Real>::locate(const Line& line, Real t0, Index l0, Real t1, Index l1, Meeting& how) const {
   const Bound* seam = l0 != none && l1 != none ? patches_.seam(l0, l1) : nullptr;
   const bool heights = seam == nullptr && l0 != none && l1 != none;
-  const auto value = [&](double t) {  // positive on the side of l0
+  const auto value = [&](Real t) {  // positive on the side of l0
     const Point p = line.point(t);
     if (seam != nullptr) return -seam->sign() * seam->value(p, patches_.square_radius());
     return patches_.extended_height(l0, p) - patches_.extended_height(l1, p);
   };
   const Index two[2] = {l0, l1};
   const std::span<const Index> both(two + (l0 == none), (l0 != none) + (l1 != none));
-  double a = t0, b = t1, fa = 0, fb = 0;
+  Real a = t0, b = t1, fa = 0, fb = 0;
   bool smooth = seam != nullptr || heights;
   if (smooth) {
     fa = value(a);
     fb = value(b);
-    smooth = std::isfinite(fa) && std::isfinite(fb) && ((fa > 0) != (fb > 0));
+    smooth = is_finite(fa) && is_finite(fb) && ((fa > 0) != (fb > 0));
   }
   if (smooth) {
-    const double t = root(value, a, fa, b, fb);
+    const Real t = root(value, a, fa, b, fb);
     const Point p = line.point(t);
     // The domains of both reach as far as where the heights are equal, or one of them ends before.
     if (seam != nullptr || (patches_.contains(l0, p) && patches_.contains(l1, p))) {
       how = seam != nullptr ? Meeting::seam : Meeting::valley;
+      if (seam != nullptr) return t;
+      const Gradient g = patches_.gradient(l0, p), h = patches_.gradient(l1, p);
+      const Real slope = line.vertical ? g.y - h.y : g.x - h.x;
+      if (!(noise_ * (1 + size(g)) > tolerance_ * absolute(slope))) return t;
+      if (Envelope<DoubleDouble>* finer = this->finer(two))
+        return Real(double(finer->locate({line.vertical, line.at}, a, l0, b, l1, how)));
       return t;
     }
   }
   for (int i = 0; i < 60 && b - a > smallest_stretch_; ++i) {
-    const double m = a + (b - a) / 2;
+    const Real m = a + (b - a) / 2;
     if (m == a || m == b) break;
     (winner(line.point(m), both) == l0 ? a : b) = m;
   }
@@ -193,5 +216,8 @@ double Envelope::locate(const Line& line, double t0, Index l0, double t1, Index 
   how = is_gap ? Meeting::rim : meeting(l0, l1, line.point((a + b) / 2));
   return a + (b - a) / 2;
 }
+
+template class Envelope<double>;
+template class Envelope<DoubleDouble>;
 
 }  // namespace krepl::terrain

@@ -8,7 +8,8 @@ namespace krepl::terrain {
 using FeatureKind = Terrain::FeatureKind;
 
 /// True if every candidate that may show in the cell by more than matters is among the labels around it.
-bool Cells::shows_all(const Cell& cell, std::span<const Index> candidates) {
+template <class Real>
+bool Cells<Real>::shows_all(const Cell& cell, std::span<const Index> candidates) {
   seen_.clear();
   if (turns_.empty() && cell.side[0].label != none) seen_.push_back(cell.side[0].label);
   for (const Turn& t : turns_) {
@@ -28,46 +29,53 @@ bool Cells::shows_all(const Cell& cell, std::span<const Index> candidates) {
 }
 
 /// True if a patch that shows nowhere around the cell stays below the patches that do.
-bool Cells::is_hidden(Index patch, const Box& box) const {
+template <class Real>
+bool Cells<Real>::is_hidden(Index patch, const Box& box) const {
   // Four or more labels, each seen once, hardly ever meet in one vertex: the cell is going to be cut anyway.
   if (seen_.size() == turns_.size() ? seen_.size() > 3 : turns_.size() > 4) return false;
   return envelope_.stays_hidden(patch, box, seen_, 5);
 }
 
-bool Cells::is_seen(Index label) const { return std::find(seen_.begin(), seen_.end(), label) != seen_.end(); }
+template <class Real>
+bool Cells<Real>::is_seen(Index label) const { return std::find(seen_.begin(), seen_.end(), label) != seen_.end(); }
 
 /// True if a cylinder's or sphere's patch is nowhere in the box wider than that between two of its sides; a sphere's
 /// between the seams to a and b, unless these are none.
 ///
 /// Both sides' functions are negative inside, so where their sum is above -t, so is each; their gradients across are at
 /// least 1, and near the rim at least the slope of their root.
-bool Cells::is_thin(Index patch, Index a, Index b, const Box& box, double width) const {
-  const PatchSet& patches = envelope_.patches();
+template <class Real>
+bool Cells<Real>::is_thin(Index patch, Index a, Index b, const Box& box, Real width) const {
+  const PatchSet<Real>& patches = envelope_.patches();
   const std::span<const Bound> bounds = patches.bounds(patch);
   if (patches[patch].kind == FeatureKind::edge) return bounds[0].c - bounds[1].c <= width;  // its two straight sides
   if (patches[patch].kind != FeatureKind::vertex) return false;
   const Point at = patches[patch].at, mid = box.middle();
-  const double aside = std::hypot(std::max(0.0, std::fabs(mid.x - at.x) - box.half_x()),
-                                  std::max(0.0, std::fabs(mid.y - at.y) - box.half_y()));
-  const double up = std::sqrt(std::max(0.0, patches.square_radius() - aside * aside));
-  const double steepness = up > 0 ? aside / up : 0;
+  const Real aside = norm(std::max(Real(0), absolute(mid.x - at.x) - box.half_x()),
+                                  std::max(Real(0), absolute(mid.y - at.y) - box.half_y()));
+  const Real up = square_root(std::max(Real(0), patches.square_radius() - aside * aside));
+  const Real steepness = up > 0 ? aside / up : 0;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const Bound &f = bounds[i], &g = bounds[j];
-      if (f.type != Bound::Type::cone || g.type != Bound::Type::cone) continue;
+      if (f.type != BoundType::cone || g.type != BoundType::cone) continue;
       if (a != none && !(f.partner == a && g.partner == b) && !(f.partner == b && g.partner == a)) continue;
-      const double s = f.sign(), t = g.sign();
-      const Bound sum{f.at, s * f.nx + t * g.nx, s * f.ny + t * g.ny, s * f.c + t * g.c, Bound::Type::cone, true, none, false};
-      const double slope = std::min(std::fabs(f.c), std::fabs(g.c)) * steepness - 1;
-      if (envelope_.bound_range(sum, box).low >= -width * std::max(1.0, slope)) return true;
+      const Real s = f.sign(), t = g.sign();
+      Bound sum = f;
+      sum.nx = s * f.nx + t * g.nx;
+      sum.ny = s * f.ny + t * g.ny;
+      sum.c = s * f.c + t * g.c;
+      const Real slope = std::min(absolute(f.c), absolute(g.c)) * steepness - 1;
+      if (envelope_.bound_range(sum, box).low >= -width * std::max(Real(1), slope)) return true;
     }
   }
   return false;
 }
 
 /// True if two edges are so nearly in one line that the sphere between them is nowhere in the box wider than the tolerance.
-bool Cells::is_thin_bend(Index a, Index b, const Box& box) const {
-  const PatchSet& patches = envelope_.patches();
+template <class Real>
+bool Cells<Real>::is_thin_bend(Index a, Index b, const Box& box) const {
+  const PatchSet<Real>& patches = envelope_.patches();
   if (a == none || b == none || patches[a].kind != FeatureKind::edge || patches[b].kind != FeatureKind::edge) return false;
   for (const Bound& side : patches.bounds(a)) {
     if (side.partner == none || patches[side.partner].kind != FeatureKind::vertex) continue;
@@ -78,9 +86,10 @@ bool Cells::is_thin_bend(Index a, Index b, const Box& box) const {
 }
 
 /// Where a sphere's patch between two edges in nearly one line gets too thin to show: anywhere along it.
-std::optional<Point> Cells::end_of_thin_bend(const Box& box) const {
+template <class Real>
+std::optional<PointOf<Real>> Cells<Real>::end_of_thin_bend(const Box& box) const {
   if (turns_.size() != 3) return std::nullopt;
-  const PatchSet& patches = envelope_.patches();
+  const PatchSet<Real>& patches = envelope_.patches();
   for (std::size_t i = 0; i < 3; ++i) {
     const Turn &from = turns_[i], &to = turns_[(i + 1) % 3], &beyond = turns_[(i + 2) % 3];
     if (from.meeting != Meeting::seam || to.meeting != Meeting::seam || from.after == none) continue;
@@ -89,7 +98,7 @@ std::optional<Point> Cells::end_of_thin_bend(const Box& box) const {
     Point p{(from.at.x + beyond.at.x) / 2, (from.at.y + beyond.at.y) / 2};
     for (int k = 0; k < 8; ++k) {
       const Gradient g = envelope_.bound_gradient(*seam, p);
-      const double step = seam->value(p, patches.square_radius()) / (g.x * g.x + g.y * g.y);
+      const Real step = seam->value(p, patches.square_radius()) / (g.x * g.x + g.y * g.y);
       p = {p.x - step * g.x, p.y - step * g.y};
     }
     if (box.contains(p)) return p;
@@ -98,24 +107,25 @@ std::optional<Point> Cells::end_of_thin_bend(const Box& box) const {
 }
 
 /// True if all candidates are the same along one direction all over the box: what shows in it anywhere shows at its sides.
-bool Cells::all_are_prisms(std::span<const Index> candidates, const Box& box) const {
-  const PatchSet& patches = envelope_.patches();
+template <class Real>
+bool Cells<Real>::all_are_prisms(std::span<const Index> candidates, const Box& box) const {
+  const PatchSet<Real>& patches = envelope_.patches();
   const auto edge =
       std::find_if(candidates.begin(), candidates.end(), [&](Index c) { return patches[c].kind == FeatureKind::edge; });
   if (edge == candidates.end()) return false;
   const Patch& axis = patches[*edge];
-  const double size = box.larger_side(), slack = envelope_.tolerance() / 16;
+  const Real size = box.larger_side(), slack = envelope_.tolerance() / 16;
   for (const Index c : candidates) {
     const Patch& f = patches[c];
     if (f.kind == FeatureKind::vertex) return false;
-    double rise = f.gx * axis.gx + f.gy * axis.gy;
+    Real rise = f.gx * axis.gx + f.gy * axis.gy;
     if (f.kind == FeatureKind::edge) {
-      if (std::fabs(f.gx * axis.gy - f.gy * axis.gx) * size > slack) return false;
+      if (absolute(f.gx * axis.gy - f.gy * axis.gx) * size > slack) return false;
       rise *= f.m;
     }
-    if (!(std::fabs(rise - axis.m) * size <= slack)) return false;
+    if (!(absolute(rise - axis.m) * size <= slack)) return false;
     for (const Bound& b : patches.bounds(c)) {
-      if (b.type == Bound::Type::line && std::fabs(b.nx * axis.gx + b.ny * axis.gy) * size <= slack) continue;
+      if (b.type == BoundType::line && absolute(b.nx * axis.gx + b.ny * axis.gy) * size <= slack) continue;
       if (!envelope_.covers(b, box)) return false;
     }
   }
@@ -127,16 +137,17 @@ bool Cells::all_are_prisms(std::span<const Index> candidates, const Box& box) co
 ///
 /// With g < 0 on the patch's side, and f < 0 where it is hidden: if f - k g <= k t |grad g| all over the box, then f <=
 /// 0 wherever g <= -t |grad g|.
-bool Cells::is_tangent_sliver(Index patch, const Box& box) const {
-  const PatchSet& patches = envelope_.patches();
+template <class Real>
+bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
+  const PatchSet<Real>& patches = envelope_.patches();
   const Point mid = box.middle();
   struct Function {
-    double value;
+    Real value;
     Gradient gradient;
     GradientRange range;
   };
   const auto side = [&](const Bound& b) {
-    const double sign = b.sign();
+    const Real sign = b.sign();
     const Gradient g = envelope_.bound_gradient(b, mid);
     const GradientRange r = envelope_.bound_gradient_range(b, box);
     const Range factor{sign, sign};
@@ -152,20 +163,23 @@ bool Cells::is_tangent_sliver(Index patch, const Box& box) const {
   for (const Bound& b : patches.bounds(patch)) {
     if (b.partner == none ? !b.rim : !is_seen(b.partner)) continue;
     const Function g = side(b);
-    const double square = g.gradient.x * g.gradient.x + g.gradient.y * g.gradient.y;
+    const Real square = g.gradient.x * g.gradient.x + g.gradient.y * g.gradient.y;
     for (const Turn& t : turns_) {
       if (t.after == none || t.after == b.partner) continue;
       const Function f = hidden_by(t.after);
-      const double k = (f.gradient.x * g.gradient.x + f.gradient.y * g.gradient.y) / square;
+      const Real k = (f.gradient.x * g.gradient.x + f.gradient.y * g.gradient.y) / square;
       if (!(k > 0)) continue;
       const Range factor{k, k};
       const Range x = f.range.x - g.range.x * factor, y = f.range.y - g.range.y * factor;
-      const double most = f.value - k * g.value + std::max(std::fabs(x.low), std::fabs(x.high)) * box.half_x() +
-                          std::max(std::fabs(y.low), std::fabs(y.high)) * box.half_y();
-      if (most <= k * std::sqrt(square) * envelope_.tolerance()) return true;
+      const Real most = f.value - k * g.value + std::max(absolute(x.low), absolute(x.high)) * box.half_x() +
+                          std::max(absolute(y.low), absolute(y.high)) * box.half_y();
+      if (most <= k * square_root(square) * envelope_.tolerance()) return true;
     }
   }
   return false;
 }
+
+template class Cells<double>;
+template class Cells<DoubleDouble>;
 
 }  // namespace krepl::terrain

@@ -7,8 +7,9 @@ namespace krepl::terrain {
 namespace {
 
 /// What vanishes along the curve of one turn: a side of a patch's domain, or a difference of heights.
-struct Condition {
-  const Bound* bound;  // null: heights of a and b
+template <class Real>
+struct ConditionOf {
+  const BoundOf<Real>* bound;  // null: heights of a and b
   Index a, b;
   bool at_rim;  // b's height where it ends in a wall
 };
@@ -16,76 +17,83 @@ struct Condition {
 }  // namespace
 
 /// The side of a domain that a seam or rim runs along; at a rim that at which the upper patch ends.
-const Bound* Cells::side_along(const Turn& t) const {
-  const PatchSet& patches = envelope_.patches();
+template <class Real>
+const BoundOf<Real>* Cells<Real>::side_along(const Turn& t) const {
+  const PatchSet<Real>& patches = envelope_.patches();
   if (t.meeting == Meeting::seam) return patches.seam(t.before, t.after);
   // Beside a seam only where what it leads to is too thin to show.
-  const double far = 4 * envelope_.tolerance();
+  const Real far = 4 * envelope_.tolerance();
   const Bound* nearest = nullptr;
-  double least = 1e300;
+  Real least = 1e300;
   for (const Index l : {t.before, t.after}) {
     if (!is_wall_of(t, l)) continue;
     for (const Bound& b : patches.bounds(l)) {
       const Gradient g = envelope_.bound_gradient(b, t.at);
-      const double distance = std::fabs(b.value(t.at, patches.square_radius())) / size(g) + (b.partner != none ? far : 0);
+      const Real distance = absolute(b.value(t.at, patches.square_radius())) / size(g) + (b.partner != none ? far : 0);
       if (distance < least) least = distance, nearest = &b;
     }
   }
   return nearest;
 }
 
-bool Cells::has_corner(Index patch, Point p) const {
+template <class Real>
+bool Cells<Real>::has_corner(Index patch, Point p) const {
   if (patch == none) return false;
   for (const Point c : envelope_.patches().corners(patch)) {
-    if (std::fabs(c.x - p.x) <= envelope_.tolerance() && std::fabs(c.y - p.y) <= envelope_.tolerance()) return true;
+    if (absolute(c.x - p.x) <= envelope_.tolerance() && absolute(c.y - p.y) <= envelope_.tolerance()) return true;
   }
   return false;
 }
 
 /// True if two patches have a corner at p at the same height, as far as heights near the rim tell, which fall like
 /// square roots.
-bool Cells::share_corner(Index a, Index b, Point p) const {
+template <class Real>
+bool Cells<Real>::share_corner(Index a, Index b, Point p) const {
   if (a == none || b == none || !has_corner(a, p) || !has_corner(b, p)) return false;
-  return std::fabs(envelope_.border_height(a, p) - envelope_.border_height(b, p)) <= 0x1p22 * envelope_.tolerance();
+  return absolute(envelope_.border_height(a, p) - envelope_.border_height(b, p)) <= 0x1p22 * envelope_.tolerance();
 }
 
 /// True if every patch among the labels has p in its domain, or on its border as far as numbers tell.
-bool Cells::all_reach(Point p) const {
+template <class Real>
+bool Cells<Real>::all_reach(Point p) const {
   return std::all_of(turns_.begin(), turns_.end(), [&](const Turn& t) { return t.after == none || reaches(t.after, p); });
 }
 
-bool Cells::reaches(Index patch, Point p) const {
+template <class Real>
+bool Cells<Real>::reaches(Index patch, Point p) const {
   if (has_corner(patch, p)) return true;
-  const PatchSet& patches = envelope_.patches();
+  const PatchSet<Real>& patches = envelope_.patches();
   for (const Bound& b : patches.bounds(patch)) {
     const Gradient g = envelope_.bound_gradient(b, p);
-    const double value = b.value(p, patches.square_radius()), slack = 4 * envelope_.tolerance() * (1 + size(g));
+    const Real value = b.value(p, patches.square_radius()), slack = 4 * envelope_.tolerance() * (1 + size(g));
     if (b.negative ? value > slack : value < -slack) return false;
   }
   return true;
 }
 
 /// True if the patch reaches p, and no patch among the labels is higher there.
-bool Cells::shows_at(Index patch, Point p) const {
+template <class Real>
+bool Cells<Real>::shows_at(Index patch, Point p) const {
   if (patch == none || !reaches(patch, p)) return false;
-  const PatchSet& patches = envelope_.patches();
-  const double h = envelope_.border_height(patch, p);
+  const PatchSet<Real>& patches = envelope_.patches();
+  const Real h = envelope_.border_height(patch, p);
   for (const Turn& t : turns_) {
     if (t.after == none || t.after == patch || !patches.contains(t.after, p)) continue;
     const Gradient g = patches.gradient(patch, p), k = patches.gradient(t.after, p);
-    const double slack = 4 * envelope_.tolerance() * (1 + std::hypot(g.x - k.x, g.y - k.y));
+    const Real slack = 4 * envelope_.tolerance() * (1 + norm(g.x - k.x, g.y - k.y));
     if (envelope_.border_height(t.after, p) > h + slack) return false;
   }
   return true;
 }
 
 /// The one corner in the box of a patch two of whose sides are among the turns, or that two patches among the labels have.
-std::optional<Point> Cells::common_corner(const Box& box) const {
+template <class Real>
+std::optional<PointOf<Real>> Cells<Real>::common_corner(const Box& box) const {
   std::optional<Point> found;
   const auto consider = [&](Index patch, auto&& wanted) {  // false: there are two
     for (const Point c : envelope_.patches().corners(patch)) {
       if (!box.contains(c) || !wanted(c)) continue;
-      if (found && std::hypot(found->x - c.x, found->y - c.y) > envelope_.tolerance()) return false;
+      if (found && norm(found->x - c.x, found->y - c.y) > envelope_.tolerance()) return false;
       if (!found) found = c;
     }
     return true;
@@ -103,9 +111,11 @@ std::optional<Point> Cells::common_corner(const Box& box) const {
   return found;
 }
 
-std::optional<Point> Cells::star_point(const Box& box) const {
-  const PatchSet& patches = envelope_.patches();
-  const double square = patches.square_radius(), radius = patches.radius();
+template <class Real>
+std::optional<PointOf<Real>> Cells<Real>::star_point(const Box& box) const {
+  const PatchSet<Real>& patches = envelope_.patches();
+  const Real square = patches.square_radius(), radius = patches.radius();
+  using Condition = ConditionOf<Real>;
   std::array<Condition, 16> condition{};
   const std::size_t n = turns_.size();
   if (n > condition.size()) return std::nullopt;
@@ -137,17 +147,19 @@ std::optional<Point> Cells::star_point(const Box& box) const {
     return envelope_.clamped_height(c.a, p) - (c.at_rim ? envelope_.rim_height(c.b, p) : envelope_.clamped_height(c.b, p));
   };
 
+  // By how much heights may differ at a place that is on their curve as far as lengths in the plane are told apart.
+  const auto height_slack = [&](Gradient g) { return envelope_.tolerance() * size(g) + envelope_.noise(); };
+
   if (const std::optional<Point> end = end_of_thin_bend(box)) return end;
   // A corner that two labels share, or two sides of one, is known beforehand; near the rim the curves there are tangent.
   const auto passes = [&](std::size_t k, Point corner) {
     const Condition& c = condition[k];
-    if (c.bound != nullptr && c.bound->type != Bound::Type::cone) {
-      const double scale = c.bound->type == Bound::Type::disc ? 2 * radius : 1;
-      return std::fabs(c.bound->value(corner, square)) <= 4 * envelope_.tolerance() * scale;
+    if (c.bound != nullptr && c.bound->type != BoundType::cone) {
+      const Real scale = c.bound->type == BoundType::disc ? 2 * radius : 1;
+      return absolute(c.bound->value(corner, square)) <= 4 * envelope_.tolerance() * scale;
     }
     if (share_corner(turns_[k].before, turns_[k].after, corner)) return true;
-    const Gradient g = gradient(c, corner);
-    return std::fabs(value(c, corner)) <= 4 * envelope_.tolerance() * (1 + size(g));
+    return absolute(value(c, corner)) <= 4 * height_slack(gradient(c, corner));
   };
   const std::optional<Point> corner = common_corner(box);
   if (corner) {
@@ -163,20 +175,20 @@ std::optional<Point> Cells::star_point(const Box& box) const {
   }
 
   // The place near `start` where two of the conditions hold.
-  const double tolerance = envelope_.tolerance(), reach = 4 * box.larger_side();
+  const Real tolerance = envelope_.tolerance(), reach = 4 * box.larger_side();
   const Point middle = box.middle();
   const auto solve = [&](const Condition& c, const Condition& d, Point start) -> std::optional<Point> {
     Point p = start;
     bool converged = false;
     for (int i = 0; i < 30 && !converged; ++i) {
-      const double f = value(c, p), e = value(d, p);
+      const Real f = value(c, p), e = value(d, p);
       const Gradient g = gradient(c, p), h = gradient(d, p);
-      const double det = g.x * h.y - g.y * h.x;
-      if (det == 0 || !std::isfinite(det)) return std::nullopt;
-      const double dx = -(f * h.y - e * g.y) / det, dy = -(e * g.x - f * h.x) / det;
+      const Real det = g.x * h.y - g.y * h.x;
+      if (det == 0 || !is_finite(det)) return std::nullopt;
+      const Real dx = -(f * h.y - e * g.y) / det, dy = -(e * g.x - f * h.x) / det;
       p = {p.x + dx, p.y + dy};
-      if (!(std::fabs(p.x - middle.x) <= reach && std::fabs(p.y - middle.y) <= reach)) return std::nullopt;
-      converged = std::fabs(dx) + std::fabs(dy) <= 0.25 * tolerance;
+      if (!(absolute(p.x - middle.x) <= reach && absolute(p.y - middle.y) <= reach)) return std::nullopt;
+      converged = absolute(dx) + absolute(dy) <= 0.25 * tolerance;
     }
     return converged && box.contains(p) ? std::optional(p) : std::nullopt;
   };
@@ -186,7 +198,7 @@ std::optional<Point> Cells::star_point(const Box& box) const {
       const std::size_t j = (i + 1) % n;
       for (const Point start : {middle, turns_[i].at, turns_[j].at}) {
         const std::optional<Point> p = solve(anywhere[i], anywhere[j], start);
-        if (!p || std::hypot(p->x - corner->x, p->y - corner->y) <= 16 * tolerance) continue;
+        if (!p || norm(p->x - corner->x, p->y - corner->y) <= 16 * tolerance) continue;
         if (shows_at(turns_[i].before, *p) && shows_at(turns_[i].after, *p) && shows_at(turns_[j].after, *p))
           return std::nullopt;
       }
@@ -195,13 +207,13 @@ std::optional<Point> Cells::star_point(const Box& box) const {
   }
   // The two conditions whose curves cross at the largest angle; sides of domains before heights.
   std::size_t first = 0, second = 1;
-  double best = -1;
+  Real best = -1;
   for (std::size_t i = 0; i < n; ++i) {
     const Gradient g = gradient(condition[i], middle);
     for (std::size_t j = i + 1; j < n; ++j) {
       const Gradient h = gradient(condition[j], middle);
-      const double sizes = size(g) * size(h);
-      double sine = sizes > 0 ? std::fabs(g.x * h.y - g.y * h.x) / sizes : 0;
+      const Real sizes = size(g) * size(h);
+      Real sine = sizes > 0 ? absolute(g.x * h.y - g.y * h.x) / sizes : 0;
       const int sides = (condition[i].bound != nullptr) + (condition[j].bound != nullptr);
       if (sine > 1e-6) sine += sides;
       if (sine > best) best = sine, first = i, second = j;
@@ -213,20 +225,17 @@ std::optional<Point> Cells::star_point(const Box& box) const {
   for (const Turn& t : turns_) {  // walls that are none here
     if (t.meeting != Meeting::rim || t.before == none || t.after == none) continue;
     const auto [upper, lower] = sides_of_wall(t);
-    const double slack = 4 * tolerance * (1 + size(patches.gradient(lower, *p)));
+    const Real slack = 4 * tolerance * (1 + size(patches.gradient(lower, *p)));
     if (envelope_.rim_at(lower, *p) == nullptr &&
         envelope_.border_height(lower, *p) > envelope_.rim_height(upper, *p) + slack)
       return std::nullopt;
   }
   for (const Condition& k : std::span(condition.data(), n)) {
-    double scale = 1;
-    if (k.bound != nullptr && k.bound->type == Bound::Type::disc) scale = 2 * radius;
-    if (k.bound != nullptr && k.bound->type == Bound::Type::cone) scale += std::fabs(k.bound->c);
-    if (k.bound == nullptr) {
-      const Gradient g = gradient(k, *p);
-      scale += size(g);
-    }
-    if (!(std::fabs(value(k, *p)) <= tolerance * scale)) return std::nullopt;
+    Real slack = tolerance;
+    if (k.bound != nullptr && k.bound->type == BoundType::disc) slack = 2 * radius * tolerance;
+    if (k.bound != nullptr && k.bound->type == BoundType::cone) slack += absolute(k.bound->c) * tolerance;
+    if (k.bound == nullptr) slack = height_slack(gradient(k, *p));
+    if (!(absolute(value(k, *p)) <= slack)) return std::nullopt;
   }
   // One vertex only: two sides of domains are enough, for heights the map must be one to one.
   if (c.bound == nullptr || d.bound == nullptr) {
@@ -242,5 +251,8 @@ std::optional<Point> Cells::star_point(const Box& box) const {
   }
   return p;
 }
+
+template class Cells<double>;
+template class Cells<DoubleDouble>;
 
 }  // namespace krepl::terrain

@@ -28,7 +28,8 @@ Surface::EdgeKind edge_kind(Meeting meeting) {
 /// Follows the links of a subdivided tile from cell to cell and writes chains.
 class ChainWriter {
  public:
-  ChainWriter(Cells& cells, const Terrain& terrain, Tile& tile) : cells_(cells), terrain_(terrain), tile_(tile) {
+  ChainWriter(CellMap& cells, const Envelope<double>& envelope, const Terrain& terrain, Tile& tile)
+      : cells_(cells), envelope_(envelope), terrain_(terrain), tile_(tile) {
     line_of_.resize(cells.crossings().size());
     for (Index l = 0; l < cells.lines().size(); ++l) {
       const CellLine& line = cells.lines()[l];
@@ -79,7 +80,7 @@ class ChainWriter {
     }
     return number;
   }
-  Index feature(Index label) const { return label == none ? none : cells_.envelope().patches()[label].feature; }
+  Index feature(Index label) const { return label == none ? none : envelope_.patches()[label].feature; }
   Index label_before(Index c) const {
     const CellLine& line = cells_.lines()[line_of_[c]];
     return c == line.first_crossing ? line.start_label : cells_.crossings()[c - 1].after;
@@ -145,7 +146,7 @@ class ChainWriter {
     Index other = label[0] == none ? label[0] : label[1];
     if (crossing.meeting == Meeting::rim) {
       const Point p = cells_.place(line, crossing);
-      if (other != none && cells_.envelope().border_height(other, p) > cells_.envelope().border_height(upper_, p)) {
+      if (other != none && envelope_.border_height(other, p) > envelope_.border_height(upper_, p)) {
         std::swap(upper_, other);
       }
       chain.lower = label[left] == upper_ ? 1 : 0;
@@ -157,8 +158,8 @@ class ChainWriter {
 
   void add_point(Index c, const Chain& chain) {
     const Point p = cells_.place(line_of_[c], cells_.crossings()[c]);
-    const Envelope& e = cells_.envelope();
-    const double z = chain.kind == Surface::EdgeKind::rim ? e.rim_height(upper_, p) : e.clamped_height(upper_, p);
+    const bool rim = chain.kind == Surface::EdgeKind::rim;
+    const double z = rim ? envelope_.rim_height(upper_, p) : envelope_.clamped_height(upper_, p);
     points_.push_back({p.x, p.y, z});
   }
 
@@ -173,7 +174,7 @@ class ChainWriter {
   /// True if the chord between the two ends of an edge tells which part of its curve is meant: the way from the chord's
   /// middle to the curve is short.
   bool chord_tells(Point3 a, Point3 b, double length) const {
-    const double radius = cells_.envelope().patches().radius(), chord = distance(a, b);
+    const double radius = envelope_.patches().radius(), chord = distance(a, b);
     if (!(chord > 0) || length > bent * chord) return false;
     if (edge_.kind == Surface::EdgeKind::seam) return chord < radius;  // a circle of that radius, projected from its centre
     const Point3 mid{(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
@@ -220,7 +221,8 @@ class ChainWriter {
   /// A curve so much longer than its chord needs several guides.
   static constexpr double bent = 1.02;
 
-  Cells& cells_;
+  CellMap& cells_;
+  const Envelope<double>& envelope_;
   const Terrain& terrain_;
   Tile& tile_;
   std::vector<Index> line_of_, region_number_;
@@ -255,28 +257,36 @@ Tile TileWorker::compute(const Terrain& terrain, const Tiling& tiling, Index col
   window_.fill(terrain, {box.low.x - margin, box.low.y - margin}, {box.high.x + margin, box.high.y + margin});
   patches_.build(window_, radius);
   tile.counters.patches = patches_.size();
-  Cells cells(patches_, scale, tile.counters, context);
+  fine_patches_.refine(window_, patches_);
+  Envelope<DoubleDouble> fine_envelope(fine_patches_, scale, tile.counters);
+  Envelope<double> envelope(patches_, scale, tile.counters, &fine_envelope);
+  CellMap map;
+  Cells<DoubleDouble> fine_cells(map, fine_envelope, tile.counters, context);
+  Cells<double> cells(map, envelope, tile.counters, context, &fine_cells);
   std::vector<Index> all(patches_.size());
   std::iota(all.begin(), all.end(), Index{0});
 
   const std::array<Point, 4> corner = box.corners();
   Index label[4];
-  for (int i = 0; i < 4; ++i) label[i] = cells.envelope().winner(corner[i], all);
-  std::vector<Envelope::Crossing> crossings;
-  const auto add_side = [&](bool vertical, double at, double from, double to, Index start, Index end) {
+  for (int i = 0; i < 4; ++i) label[i] = envelope.winner(corner[i], all);
+  std::vector<LineCrossing> crossings;
+  Cells<double>::Cell whole{box, {}};
+  const auto add_side = [&](Index side, bool vertical, double at, double from, double to, Index start, Index end) {
     crossings.clear();
-    cells.envelope().section(vertical, at, from, to, start, end, all, crossings);
-    cells.add_line(vertical, at, start, crossings);
+    envelope.section(vertical, at, from, to, start, end, all, crossings);
+    map.add_line(vertical, at, start, crossings);
+    const Index first = map.lines()[side].first_crossing;
+    whole.side[side] = {side, first, first + Index(crossings.size()), start};
   };
-  add_side(false, box.low.y, box.low.x, box.high.x, label[0], label[1]);
-  add_side(true, box.high.x, box.low.y, box.high.y, label[1], label[2]);
-  add_side(false, box.high.y, box.low.x, box.high.x, label[3], label[2]);
-  add_side(true, box.low.x, box.low.y, box.high.y, label[0], label[3]);
-  if (!cells.run(box, all)) {
-    tile.failed_at = cells.failed_at();
+  add_side(0, false, box.low.y, box.low.x, box.high.x, label[0], label[1]);
+  add_side(1, true, box.high.x, box.low.y, box.high.y, label[1], label[2]);
+  add_side(2, false, box.high.y, box.low.x, box.high.x, label[3], label[2]);
+  add_side(3, true, box.low.x, box.low.y, box.high.y, label[0], label[3]);
+  if (!cells.run(whole, all)) {
+    tile.failed_at = map.failed_at;
     return tile;
   }
-  ChainWriter(cells, terrain, tile).write();
+  ChainWriter(map, envelope, terrain, tile).write();
   return tile;
 }
 

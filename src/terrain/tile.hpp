@@ -62,7 +62,8 @@ class TileWorker {
 
  private:
   TerrainWindow window_;
-  PatchSet patches_;
+  PatchSet<double> patches_;
+  PatchSet<DoubleDouble> fine_patches_;
 };
 
 }  // namespace krepl::terrain

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace krepl::profile {
+namespace krepl::kernel {
 
 /// About 106 bits as an unevaluated sum of two doubles (Dekker 1971), with the exponents of double. The upper rung of the
 /// ladder: ties are ordinary on lattices, and this is ten times as fast as quadruple precision in software.
@@ -16,17 +16,17 @@ struct DoubleDouble {
   explicit operator double() const { return high + low; }
 
   /// a + b, exactly.
-  static DoubleDouble sum(double a, double b) {
+  [[gnu::always_inline]] static DoubleDouble sum(double a, double b) {
     const double s = a + b, bb = s - a;
     return {s, (a - (s - bb)) + (b - bb)};
   }
   /// a + b, exactly, where |a| >= |b| or a == 0.
-  static DoubleDouble quick_sum(double a, double b) {
+  [[gnu::always_inline]] static DoubleDouble quick_sum(double a, double b) {
     const double s = a + b;
     return {s, b - (s - a)};
   }
   /// a * b, exactly, barring under- and overflow.
-  static DoubleDouble product(double a, double b) {
+  [[gnu::always_inline]] static DoubleDouble product(double a, double b) {
     constexpr double splitter = 0x1p27 + 1;
     const double ca = splitter * a, ah = ca - (ca - a), al = a - ah;
     const double cb = splitter * b, bh = cb - (cb - b), bl = b - bh;
@@ -34,15 +34,16 @@ struct DoubleDouble {
     return {p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
   }
 
-  friend DoubleDouble operator-(DoubleDouble a) { return {-a.high, -a.low}; }
-  friend DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
+  /// Of infinities and what is not a number only comparisons are right.
+  [[gnu::always_inline]] friend DoubleDouble operator-(DoubleDouble a) { return {-a.high, -a.low}; }
+  [[gnu::always_inline]] friend DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
     DoubleDouble s = sum(a.high, b.high);
     const DoubleDouble t = sum(a.low, b.low);
     s = quick_sum(s.high, s.low + t.high);
     return quick_sum(s.high, s.low + t.low);
   }
-  friend DoubleDouble operator-(DoubleDouble a, DoubleDouble b) { return a + -b; }
-  friend DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
+  [[gnu::always_inline]] friend DoubleDouble operator-(DoubleDouble a, DoubleDouble b) { return a + -b; }
+  [[gnu::always_inline]] friend DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
     const DoubleDouble p = product(a.high, b.high);
     return quick_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
   }
@@ -54,6 +55,9 @@ struct DoubleDouble {
     const DoubleDouble q = quick_sum(q1, q2);
     return q + DoubleDouble(rest.high / b.high);
   }
+  DoubleDouble& operator+=(DoubleDouble b) { return *this = *this + b; }
+  DoubleDouble& operator*=(DoubleDouble b) { return *this = *this * b; }
+  DoubleDouble& operator/=(DoubleDouble b) { return *this = *this / b; }
   friend bool operator<(DoubleDouble a, DoubleDouble b) { return a.high < b.high || (a.high == b.high && a.low < b.low); }
   friend bool operator>(DoubleDouble a, DoubleDouble b) { return b < a; }
   friend bool operator<=(DoubleDouble a, DoubleDouble b) { return a.high < b.high || (a.high == b.high && a.low <= b.low); }
@@ -69,4 +73,4 @@ inline DoubleDouble square_root(DoubleDouble x) {
   return DoubleDouble::quick_sum(r, rest.high / (2 * r));
 }
 
-}  // namespace krepl::profile
+}  // namespace krepl::kernel
