@@ -26,6 +26,8 @@ constexpr double finer = 1.0 / 16;
 struct LocalFace {
   std::vector<std::vector<Index>> loops;
   std::vector<Index> global;
+
+  Index number(Index v) const { return Index(std::lower_bound(global.begin(), global.end(), v) - global.begin()); }
 };
 
 LocalFace local_face(const Surface& surface, const BorderVertices& border, Surface::Index f) {
@@ -37,9 +39,37 @@ LocalFace local_face(const Surface& surface, const BorderVertices& border, Surfa
   std::sort(face.global.begin(), face.global.end());
   face.global.erase(std::unique(face.global.begin(), face.global.end()), face.global.end());
   for (auto& loop : face.loops) {
-    for (Index& v : loop) v = Index(std::lower_bound(face.global.begin(), face.global.end(), v) - face.global.begin());
+    for (Index& v : loop) v = face.number(v);
   }
   return face;
+}
+
+/// The chords of a face's border but for those at rims, ascending.
+std::vector<PatchMesh::Chord> border_chords(const Surface& surface, const BorderVertices& border, Surface::Index f,
+                                            const LocalFace& face) {
+  const Subdivision& topology = surface.subdivision();
+  std::vector<PatchMesh::Chord> chords;
+  std::vector<Index> vertices;
+  const auto add_loop = [&](Surface::Index first) {
+    Surface::Index h = first;
+    do {
+      const Surface::Index following = topology.next[h];
+      vertices.clear();
+      border.append(h, vertices);
+      const std::size_t count = vertices.size();
+      border.append(following, vertices);
+      const Surface::Index beyond = surface.face_feature(topology.face[Subdivision::twin(h)]);
+      if (surface.edge(Subdivision::edge(h)).kind != Surface::EdgeKind::rim) {
+        for (std::size_t i = 0; i < count; ++i)
+          chords.push_back({face.number(vertices[i]), face.number(vertices[i + 1]), beyond});
+      }
+      h = following;
+    } while (h != first);
+  };
+  add_loop(topology.face_outer[f]);
+  for (const Surface::Index h : topology.inner_loops(f)) add_loop(h);
+  std::sort(chords.begin(), chords.end());
+  return chords;
 }
 
 PatchMesh triangulate(const BorderVertices& border, const LocalFace& face, const SurfacePatch& patch,
@@ -71,7 +101,9 @@ void SurfaceMesh::visit(std::size_t block, const Context& context, const std::fu
     if (!border_.has_triangles(f)) continue;
     const LocalFace face = local_face(*surface_, border_, f);
     const SurfacePatch patch(surface_->terrain(), surface_->face_feature(f), surface_->radius());
-    const PatchMesh mesh = triangulate(border_, face, patch, face_error_);
+    PatchMesh mesh = triangulate(border_, face, patch, face_error_);
+    if (mesh.points().size() > face.global.size())
+      mesh.lift(surface_->terrain(), surface_->radius(), border_chords(*surface_, border_, f, face));
     use({f, mesh, face.global, inner, points});
     inner += mesh.points().size() - face.global.size();
     points += mesh.points().size();

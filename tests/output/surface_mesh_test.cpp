@@ -106,9 +106,8 @@ void expect_near(const Surface& surface, const Mesh& mesh, double deviation, dou
       far += off > max_error;
     }
   }
-  // Corners are on the surface but for a few, which are off by up to 3e-8 of the extent (docs/status.md).
-  const double tolerance = 1e-7 * std::max(radius, surface.terrain().extent());
-  EXPECT_LE(corner, std::min(tolerance, max_error)) << "corner in face " << corner_face;
+  const double tolerance = 1e-11 * std::max(radius, surface.terrain().extent());
+  EXPECT_LE(corner, tolerance) << "corner in face " << corner_face;
   EXPECT_LE(inside, max_error) << "place in face " << inside_face << "; too far: " << far << " of "
                                << mesh.triangles.size();
   EXPECT_LE(inside, deviation + tolerance);
@@ -182,7 +181,7 @@ void expect_right(const SmallTerrain& c) {
   ASSERT_TRUE(terrain.ok()) << terrain.error().text();
   for (const double share : {1e-2, 1e-3, 1e-4}) {
     SCOPED_TRACE(share);
-    expect_right(*terrain, c.radius, share, 5);
+    expect_right(*terrain, c.radius, share, 1);
   }
 }
 
