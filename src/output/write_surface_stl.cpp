@@ -9,9 +9,10 @@ namespace {
 
 using Corner = std::array<float, 3>;
 
-Corner unit_normal(const Corner& a, const Corner& b, const Corner& c) {
-  const double u[] = {double(b[0]) - a[0], double(b[1]) - a[1], double(b[2]) - a[2]};
-  const double v[] = {double(c[0]) - a[0], double(c[1]) - a[1], double(c[2]) - a[2]};
+/// Of the corners before they are rounded: of a small triangle little may be left by that.
+Corner unit_normal(Point3 a, Point3 b, Point3 c) {
+  const double u[] = {b.x - a.x, b.y - a.y, b.z - a.z};
+  const double v[] = {c.x - a.x, c.y - a.y, c.z - a.z};
   const double n[] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
   const double length = std::hypot(n[0], n[1], n[2]);
   if (!(length > 0)) return {0, 0, 0};  // readers compute it themselves
@@ -44,9 +45,8 @@ Status put_triangles(OutputStream& stream, const SurfaceMesh& mesh, double max_e
     const PatchMesh& triangles = face.triangles;
     for (std::size_t t = 0; t < triangles.triangle_count(); ++t) {
       const auto [i, j, k] = triangles.triangle(t);
-      const Corner a = corner(triangles.points()[i]), b = corner(triangles.points()[j]),
-                   c = corner(triangles.points()[k]);
-      for (const Corner& values : {unit_normal(a, b, c), a, b, c}) put_binary(bytes, values);
+      const Point3 a = triangles.points()[i], b = triangles.points()[j], c = triangles.points()[k];
+      for (const Corner& values : {unit_normal(a, b, c), corner(a), corner(b), corner(c)}) put_binary(bytes, values);
       put_binary(bytes, std::uint16_t{0});
     }
   };

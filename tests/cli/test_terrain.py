@@ -218,6 +218,11 @@ class Terrain(support.CliTest):
         for t in mesh[::7]:
             for p in t:
                 self.assertAlmostEqual(self.distance(p), R, delta=1e-5)
+        data = (self.directory / "out.stl").read_bytes()
+        for t in range(len(mesh)):
+            normal = struct.unpack_from("<3f", data, 84 + 50 * t)
+            self.assertAlmostEqual(math.hypot(*normal), 1, delta=1e-6)
+            self.assertGreaterEqual(normal[2], 0)
 
     def test_stl_far_from_the_origin_is_moved_with_a_note(self):
         done = self.terrain("out.stl")
