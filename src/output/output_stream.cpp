@@ -42,6 +42,16 @@ void OutputStream::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) error_number_ = errno != 0 ? errno : EIO;
 }
 
+std::uint64_t OutputStream::position() {
+  const off_t position = ftello(file_);
+  if (position < 0 && !failed()) error_number_ = errno;
+  return position < 0 ? 0 : std::uint64_t(position);
+}
+
+void OutputStream::seek(std::uint64_t position) {
+  if (!failed() && fseeko(file_, off_t(position), SEEK_SET) != 0) error_number_ = errno;
+}
+
 Status OutputStream::finish() {
   std::FILE* file = std::exchange(file_, nullptr);
   errno = 0;

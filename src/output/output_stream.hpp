@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -20,6 +21,10 @@ class OutputStream {
   ~OutputStream();
 
   void write(std::string_view bytes);
+  /// Whether seek() works: in files it does, in pipes it does not.
+  bool can_seek() const { return atomic_.has_value(); }
+  std::uint64_t position();
+  void seek(std::uint64_t position);
   bool failed() const { return error_number_ != 0; }
   /// Closes, and puts the file in its place if nothing failed.
   Status finish();

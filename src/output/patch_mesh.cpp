@@ -23,7 +23,7 @@ constexpr int most_sides = 100;
 }  // namespace
 
 PatchMesh::PatchMesh(const SurfacePatch& patch, std::vector<Point3> points, const std::vector<Triangle>& triangles)
-    : patch_(patch), points_(std::move(points)) {
+    : patch_(patch), points_(std::move(points)), border_points_(points_.size()) {
   corner_.reserve(3 * triangles.size());
   for (const Triangle& t : triangles) corner_.insert(corner_.end(), t.begin(), t.end());
   connect();
@@ -200,6 +200,32 @@ void PatchMesh::halve_all() {
       settle();
       changed = true;
     }
+  }
+}
+
+void PatchMesh::lift(const Terrain& terrain, double radius, std::span<const Chord> chords) {
+  for (Index s = 0; s < corner_.size(); ++s) {
+    if (opposite_[s] != none || corner_[previous(s)] < border_points_) continue;
+    const auto chord = std::lower_bound(chords.begin(), chords.end(), Chord{corner_[s], corner_[next(s)], 0});
+    if (chord == chords.end() || chord->from != corner_[s] || chord->to != corner_[next(s)]) continue;
+    lift_beside(s, SurfacePatch(terrain, chord->beyond, radius));
+  }
+}
+
+/// Points that are lifted hang together from the chord on. One that is where it belongs is not lifted again.
+void PatchMesh::lift_beside(Index border_side, const SurfacePatch& beyond) {
+  std::vector<Index> sides{border_side};
+  while (!sides.empty()) {
+    const Index side = sides.back();
+    sides.pop_back();
+    const Index apex = corner_[previous(side)];
+    if (apex < border_points_) continue;
+    Point3& p = points_[apex];
+    const double height = beyond.height(p.x, p.y);
+    if (!(height > p.z) || !beyond.is_over_feature({p.x, p.y, height})) continue;
+    p.z = height;
+    for (const Index s : {next(side), previous(side)})
+      if (opposite_[s] != none) sides.push_back(opposite_[s]);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "krepl/point.hpp"
@@ -19,8 +20,18 @@ class PatchMesh {
 
   PatchMesh(const SurfacePatch& patch, std::vector<Point3> points, const std::vector<Triangle>& triangles);
 
+  /// A chord of the border, and the feature whose patch the surface has beyond it.
+  struct Chord {
+    Index from, to;
+    Terrain::Index beyond;
+    auto operator<=>(const Chord&) const = default;
+  };
+
   /// Flips inner sides for shorter ones, and halves those that are too far below the patch.
   void refine(double max_error);
+  /// Puts inner points between a chord and its curve, where the surface is the patch beyond the curve, on that patch.
+  /// Chords are ascending.
+  void lift(const Terrain& terrain, double radius, std::span<const Chord> chords);
 
   const std::vector<Point3>& points() const { return points_; }
   std::size_t triangle_count() const { return corner_.size() / 3; }
@@ -50,9 +61,11 @@ class PatchMesh {
   bool is_too_long(Index side) const;
   void halve(Index side);
   void halve_all();
+  void lift_beside(Index border_side, const SurfacePatch& beyond);
 
   const SurfacePatch& patch_;
   std::vector<Point3> points_;
+  const std::size_t border_points_;
   std::vector<Index> corner_, opposite_;
   std::vector<Index> doubtful_;  // sides that may have to be flipped
   bool narrow_ = false;  // flips and halves only where the view from above tells nothing

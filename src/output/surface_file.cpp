@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <numeric>
 
 #include "kernel/parallel.hpp"
 #include "output/surface_writers.hpp"
@@ -114,6 +115,54 @@ Status write_items(OutputStream& stream, std::size_t count, const Context& conte
       part.clear();
     }
     if (context.progress) context.progress(double(first + here) / double(count));
+  }
+  return std::monostate{};
+}
+
+namespace {
+
+using Buffers = std::vector<fmt::memory_buffer>;
+
+/// One buffer a section for each of several items, filled on all threads.
+Status fill(std::vector<Buffers>& items, std::size_t first, std::size_t count, const Context& context,
+            const std::function<void(std::span<fmt::memory_buffer>, std::size_t)>& put) {
+  const bool done = kernel::parallel_blocks(context, count, 1, [&](std::size_t i, std::size_t) {
+    for (fmt::memory_buffer& buffer : items[i]) buffer.clear();
+    put(items[i], first + i);
+  });
+  if (!done) return surface_interrupted();
+  return std::monostate{};
+}
+
+}  // namespace
+
+Status write_sections(OutputStream& stream, std::span<const std::uint64_t> sizes, std::size_t count,
+                      const Context& context,
+                      const std::function<void(std::span<fmt::memory_buffer>, std::size_t)>& put) {
+  constexpr std::uint64_t bytes_at_once = 4 << 20;
+  constexpr std::size_t least = 8, most = 64;
+  const std::uint64_t bytes = std::reduce(sizes.begin(), sizes.end());
+  const std::size_t batch =
+      std::clamp(std::size_t(bytes_at_once * count / std::max<std::uint64_t>(bytes, 1)), least, most);
+  std::vector<Buffers> items(batch);
+  for (Buffers& item : items) item = Buffers(sizes.size());
+  std::vector<std::uint64_t> place(sizes.size());
+  const bool at_once = stream.can_seek();
+  std::exclusive_scan(sizes.begin(), sizes.end(), place.begin(), at_once ? stream.position() : 0);
+  const std::size_t passes = at_once ? 1 : sizes.size();
+  for (std::size_t pass = 0; pass < passes; ++pass) {
+    for (std::size_t first = 0; first < count && !stream.failed(); first += batch) {
+      const std::size_t here = std::min(count - first, batch);
+      if (Status filled = fill(items, first, here, context, put); !filled) return filled;
+      for (std::size_t s = at_once ? 0 : pass; s < (at_once ? sizes.size() : pass + 1); ++s) {
+        if (at_once) stream.seek(place[s]);
+        for (std::size_t i = 0; i < here; ++i) {
+          stream.write({items[i][s].data(), items[i][s].size()});
+          place[s] += items[i][s].size();
+        }
+      }
+      if (context.progress) context.progress(double(pass * count + first + here) / double(passes * count));
+    }
   }
   return std::monostate{};
 }

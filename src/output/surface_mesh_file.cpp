@@ -14,13 +14,13 @@ Result<SurfaceMesh> make_mesh(const Surface& surface, const SurfaceFileOptions& 
   if (max_error < 1e-9 * surface.radius()) {
     return Error{ErrorCode::usage, "--max-error is too small for the radius", "", "give at least 1e-9 of the radius"};
   }
-  Result<SurfaceMesh> mesh = triangulate_surface(surface, max_error, context);
+  Result<SurfaceMesh> mesh = SurfaceMesh::make(surface, max_error, context);
   if (!mesh) return mesh;
-  report.deviation = mesh->deviation;
-  report.triangles = mesh->triangles.size();
-  if (mesh->folded > 0) {
+  report.deviation = mesh->deviation();
+  report.triangles = mesh->triangle_count();
+  if (mesh->folded() > 0) {
     report.notes.push_back(
-        fmt::format("note: {} triangles in faces narrower than the deviation are seen from below", mesh->folded));
+        fmt::format("note: {} triangles in faces narrower than the deviation are seen from below", mesh->folded()));
   }
   return mesh;
 }

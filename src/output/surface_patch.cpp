@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/orientation.hpp"
+
 namespace krepl::output {
 
 namespace {
@@ -20,12 +22,13 @@ Point3 unit(Point3 v) {
 }  // namespace
 
 SurfacePatch::SurfacePatch(const Terrain& terrain, Terrain::Index feature, double radius)
-    : kind_(terrain.feature_kind(feature)), radius_(radius) {
-  const Terrain::Corners corners = terrain.corners(feature);
-  at_ = corners.point[0];
-  if (kind_ == Kind::edge) direction_ = unit(minus(corners.point[1], at_));
+    : kind_(terrain.feature_kind(feature)),
+      radius_(radius),
+      corners_(terrain.corners(feature)),
+      at_(corners_.point[0]) {
+  if (kind_ == Kind::edge) direction_ = unit(minus(corners_.point[1], at_));
   if (kind_ == Kind::face) {
-    direction_ = unit(cross(minus(corners.point[1], at_), minus(corners.point[2], at_)));
+    direction_ = unit(cross(minus(corners_.point[1], at_), minus(corners_.point[2], at_)));
     if (direction_.z < 0) direction_ = {-direction_.x, -direction_.y, -direction_.z};
   }
 }
@@ -37,6 +40,20 @@ double SurfacePatch::height(double x, double y) const {
   const double flat = std::hypot(direction_.x, direction_.y);
   const double along = (direction_.x * dx + direction_.y * dy) / flat, aside = (direction_.x * dy - direction_.y * dx) / flat;
   return at_.z + (along * direction_.z + std::sqrt(std::max(0.0, radius_ * radius_ - aside * aside))) / flat;
+}
+
+bool SurfacePatch::is_over_feature(Point3 p) const {
+  if (kind_ == Kind::vertex) return true;
+  const auto& corner = corners_.point;
+  if (kind_ == Kind::edge) return dot(minus(p, at_), direction_) >= 0 && dot(minus(p, corner[1]), direction_) <= 0;
+  const Point touched{p.x - radius_ * direction_.x, p.y - radius_ * direction_.y};
+  int left = 0, right = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point3 a = corner[i], b = corner[(i + 1) % 3];
+    const int side = kernel::orientation({a.x, a.y}, {b.x, b.y}, touched);
+    left += side > 0, right += side < 0;
+  }
+  return left == 0 || right == 0;
 }
 
 Point3 SurfacePatch::normal(Point3 p) const {

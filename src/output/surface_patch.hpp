@@ -13,6 +13,8 @@ class SurfacePatch {
   Terrain::FeatureKind kind() const { return kind_; }
   /// Height over a place; beyond the patch's silhouette, that of the silhouette.
   double height(double x, double y) const;
+  /// Whether a ball about a point of the patch touches the feature itself, not the line or plane beyond its ends.
+  bool is_over_feature(Point3 p) const;
   /// Unit normal, upwards, at a point of the patch.
   Point3 normal(Point3 p) const;
 
@@ -27,6 +29,7 @@ class SurfacePatch {
  private:
   Terrain::FeatureKind kind_;
   double radius_;
+  Terrain::Corners corners_;
   Point3 at_;         // a point of the feature
   Point3 direction_;  // face: unit normal; edge: unit direction
 };

@@ -19,9 +19,14 @@ using Fields = std::initializer_list<std::pair<const char*, OGRFieldType>>;
 
 class SurfaceGeoPackage {
  public:
-  SurfaceGeoPackage(const Surface& surface, const SurfaceEdges& edges, const std::string& crs, const Context& context)
-      : surface_(surface), topology_(surface.subdivision()), edges_(edges), border_(surface, edges),
-        features_(visible_features(surface)), crs_text_(crs), context_(context),
+  SurfaceGeoPackage(const Surface& surface, const BorderVertices& border, const std::string& crs,
+                    const Context& context)
+      : surface_(surface),
+        topology_(surface.subdivision()),
+        border_(border),
+        features_(visible_features(surface)),
+        crs_text_(crs),
+        context_(context),
         total_(topology_.face_count() + topology_.edge_count() + topology_.vertex_count) {}
 
   Status write(const std::string& path);
@@ -50,8 +55,7 @@ class SurfaceGeoPackage {
 
   const Surface& surface_;
   const Subdivision& topology_;
-  const SurfaceEdges& edges_;
-  const BorderVertices border_;
+  const BorderVertices& border_;
   const std::vector<Index> features_;
   const std::string& crs_text_;
   const Context& context_;
@@ -119,10 +123,10 @@ std::string SurfaceGeoPackage::place_of(Index feature) const {
 }
 
 bool SurfaceGeoPackage::add_ring(OGRPolygon& polygon, Index half_edge) const {
-  const std::vector<SurfaceMesh::Index> loop = border_.loop(half_edge);
+  const std::vector<BorderVertices::Index> loop = border_.loop(half_edge);
   if (loop.size() < 3) return false;
   auto ring = std::make_unique<OGRLinearRing>();
-  for (const SurfaceMesh::Index v : loop) add_point(*ring, border_.vertices()[v]);
+  for (const BorderVertices::Index v : loop) add_point(*ring, border_.vertex(v));
   ring->closeRings();
   polygon.addRingDirectly(ring.release());
   return true;
@@ -168,7 +172,7 @@ void SurfaceGeoPackage::fill_edge(OGRFeature& feature, Index e) {
   set_feature_number(feature, "right_feature", edge.feature[1]);
   auto line = std::make_unique<OGRLineString>();
   add_point(*line, surface_.vertex(topology_.origin[left]));
-  for (const Point3 p : edges_.inner(e)) add_point(*line, p);
+  for (const Point3 p : border_.edges().inner(e)) add_point(*line, p);
   add_point(*line, surface_.vertex(topology_.origin[right]));
   feature.SetGeometryDirectly(line.release());
 }
@@ -222,11 +226,12 @@ SurfaceWriteResult write_surface_gpkg(const std::string& path, const Surface& su
   ogr::initialise();
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return file.error();
-  const Result<SurfaceEdges> edges = SurfaceEdges::make(surface, surface_max_error(options, surface.radius()), context);
-  if (!edges) return edges.error();
+  const double max_error = surface_max_error(options, surface.radius());
+  const Result<BorderVertices> border = BorderVertices::make(surface, max_error, context);
+  if (!border) return border.error();
   SurfaceFileReport report;
   {
-    SurfaceGeoPackage writer(surface, *edges, options.crs, context);
+    SurfaceGeoPackage writer(surface, *border, options.crs, context);
     if (Status written = writer.write(file->temporary_path()); !written) return written.error();
     if (writer.faces_without_polygon() > 0) {
       report.notes.push_back(fmt::format("note: {} faces are narrower than the deviation and have no polygon; a smaller "
@@ -234,7 +239,7 @@ SurfaceWriteResult write_surface_gpkg(const std::string& path, const Surface& su
     }
   }
   if (Status committed = file->commit(); !committed) return committed.error();
-  report.deviation = edges->deviation();
+  report.deviation = border->edges().deviation();
   return report;
 }
 

@@ -1,6 +1,7 @@
 """krepl terrain: every format read back without krepl's code, and heights by brute force."""
 import json
 import math
+import os
 import struct
 import subprocess
 from collections import Counter
@@ -217,12 +218,26 @@ class Terrain(support.CliTest):
         for t in mesh[::7]:
             for p in t:
                 self.assertAlmostEqual(self.distance(p), R, delta=1e-5)
+        data = (self.directory / "out.stl").read_bytes()
+        for t in range(len(mesh)):
+            normal = struct.unpack_from("<3f", data, 84 + 50 * t)
+            self.assertAlmostEqual(math.hypot(*normal), 1, delta=1e-6)
+            self.assertGreaterEqual(normal[2], 0)
 
     def test_stl_far_from_the_origin_is_moved_with_a_note(self):
         done = self.terrain("out.stl")
         self.assertRegex(done.stderr, r"^krepl: out.stl: note: coordinates are relative to 500004 5600003 \d+: "
                          r"STL has single precision only\n$")
         self.assertTrue(all(abs(v) < 20 for t in self.read_stl("out.stl") for p in t for v in p))
+
+    def test_meshes_are_the_same_through_a_pipe(self):
+        for extension in ("stl", "ply", "glb"):
+            self.terrain(f"out.{extension}")
+            os.mkfifo(self.directory / f"pipe.{extension}")
+            through = self.directory / f"through.{extension}"
+            with open(through, "wb") as file, subprocess.Popen(["cat", f"pipe.{extension}"], cwd=self.directory, stdout=file):
+                self.terrain(f"pipe.{extension}")
+            self.assertTrue(through.read_bytes() == (self.directory / f"out.{extension}").read_bytes(), extension)
 
     def test_assimp_reads_the_meshes(self):
         self.need("assimp")
@@ -255,7 +270,9 @@ class Terrain(support.CliTest):
             self.assertAlmostEqual(math.hypot(*n), 1, delta=1e-6)
             self.assertGreaterEqual(n[1], -1e-6)
         for k in range(3):
-            self.assertEqual(min(p[k] for p in positions), head["accessors"][0]["min"][k])
+            for name, end in (("min", min), ("max", max)):
+                told = struct.unpack("<f", struct.pack("<f", head["accessors"][0][name][k]))[0]
+                self.assertEqual(told, end(p[k] for p in positions))
         self.assertLess(max(i for (i,) in values(3, "<I")), len(positions))
 
     # --- rasters ---

@@ -10,15 +10,17 @@
 #include <set>
 
 #include "input/terrain_reader.hpp"
+#include "kernel/orientation.hpp"
 #include "model/terrain_window.hpp"
 #include "output/surface_mesh.hpp"
 #include "support/ball_oracle.hpp"
 #include "support/environment.hpp"
+#include "support/mesh_arrays.hpp"
 
 namespace krepl::test {
 namespace {
 
-using Mesh = output::SurfaceMesh;
+using Mesh = MeshArrays;
 using Side = std::array<Mesh::Index, 2>;
 
 Point3 between(Point3 a, Point3 b, Point3 c, double s, double t) {
@@ -85,7 +87,7 @@ double mean_edge(const Terrain& terrain) {
 }
 
 /// Every `stride`th triangle: corners, middles of sides and places inside.
-void expect_near(const Surface& surface, const Mesh& mesh, double max_error, std::size_t stride) {
+void expect_near(const Surface& surface, const Mesh& mesh, double deviation, double max_error, std::size_t stride) {
   const double radius = surface.radius();
   const NearestTriangle nearest(surface.terrain());
   double corner = 0, inside = 0;
@@ -104,13 +106,12 @@ void expect_near(const Surface& surface, const Mesh& mesh, double max_error, std
       far += off > max_error;
     }
   }
-  // Corners are on the surface but for a few, which are off by up to 3e-8 of the extent (docs/status.md).
-  const double tolerance = 1e-7 * std::max(radius, surface.terrain().extent());
-  EXPECT_LE(corner, std::min(tolerance, max_error)) << "corner in face " << corner_face;
+  const double tolerance = 1e-11 * std::max(radius, surface.terrain().extent());
+  EXPECT_LE(corner, tolerance) << "corner in face " << corner_face;
   EXPECT_LE(inside, max_error) << "place in face " << inside_face << "; too far: " << far << " of "
                                << mesh.triangles.size();
-  EXPECT_LE(inside, mesh.deviation + tolerance);
-  EXPECT_LE(mesh.deviation, max_error);
+  EXPECT_LE(inside, deviation + tolerance);
+  EXPECT_LE(deviation, max_error);
 }
 
 /// Every side is one of two triangles, to and fro, but for those along rims, which are closed.
@@ -141,14 +142,38 @@ void expect_watertight(const Surface& surface, const Mesh& mesh) {
   EXPECT_EQ(unbalanced, 0u);
 }
 
+/// What is told about the triangles before they are made.
+void expect_sums(const output::SurfaceMesh& made, const Mesh& mesh) {
+  EXPECT_EQ(made.triangle_count(), mesh.triangles.size());
+  EXPECT_EQ(made.border().count() + made.inner_count(), mesh.vertices.size());
+  Point3 low = mesh.vertices[mesh.triangles[0].vertex[0]], high = low;
+  std::set<std::pair<Surface::Index, Mesh::Index>> points;
+  std::size_t folded = 0;
+  for (const Mesh::Triangle& t : mesh.triangles) {
+    const Point3 a = mesh.vertices[t.vertex[0]], b = mesh.vertices[t.vertex[1]], c = mesh.vertices[t.vertex[2]];
+    folded += kernel::orientation({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) < 0;
+    for (const Mesh::Index v : t.vertex) points.insert({t.face, v});
+    for (const Point3 p : {a, b, c}) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  }
+  EXPECT_EQ(made.points_count(), points.size());
+  EXPECT_EQ(made.folded(), folded);
+  EXPECT_EQ(made.lowest(), low);
+  EXPECT_EQ(made.highest(), high);
+}
+
 void expect_right(const std::shared_ptr<const Terrain>& terrain, double radius, double share, std::size_t stride) {
   const auto surface = compute_surface(terrain, {radius});
   ASSERT_TRUE(surface.ok()) << surface.error().text();
-  const auto mesh = output::triangulate_surface(*surface, share * radius);
-  ASSERT_TRUE(mesh.ok()) << mesh.error().text();
-  ASSERT_FALSE(mesh->triangles.empty());
-  expect_near(*surface, *mesh, share * radius, stride);
-  expect_watertight(*surface, *mesh);
+  const auto made = output::SurfaceMesh::make(*surface, share * radius);
+  ASSERT_TRUE(made.ok()) << made.error().text();
+  const Mesh mesh(*made);
+  ASSERT_FALSE(mesh.triangles.empty());
+  expect_sums(*made, mesh);
+  expect_near(*surface, mesh, made->deviation(), share * radius, stride);
+  expect_watertight(*surface, mesh);
 }
 
 void expect_right(const SmallTerrain& c) {
@@ -156,7 +181,7 @@ void expect_right(const SmallTerrain& c) {
   ASSERT_TRUE(terrain.ok()) << terrain.error().text();
   for (const double share : {1e-2, 1e-3, 1e-4}) {
     SCOPED_TRACE(share);
-    expect_right(*terrain, c.radius, share, 5);
+    expect_right(*terrain, c.radius, share, 1);
   }
 }
 

@@ -6,9 +6,9 @@
 #include <functional>
 #include <map>
 
-#include "output/surface_mesh.hpp"
 #include "support/ball_oracle.hpp"
 #include "support/environment.hpp"
+#include "support/mesh_arrays.hpp"
 #include "support/surface_faults.hpp"
 
 namespace krepl::test {
@@ -214,19 +214,20 @@ TEST(SurfacePropertiesOpen, FirstOneRadiusThenAnotherOnTheMesh) {
     SmallTerrain both = first;
     first.radius = both.radius * share;
     const Surface sum = computed(both), a = computed(first);
-    const auto mesh = output::triangulate_surface(a, 2e-2 * first.radius);
+    const auto mesh = output::SurfaceMesh::make(a, 2e-2 * first.radius);
     RC_ASSERT(mesh.ok());
     std::vector<SmallTerrain::Triangle> triangles;
-    for (const auto& t : mesh->triangles)
-      triangles.push_back({mesh->vertices[t.vertex[0]], mesh->vertices[t.vertex[1]], mesh->vertices[t.vertex[2]]});
+    const MeshArrays arrays(*mesh);
+    for (const auto& t : arrays.triangles)
+      triangles.push_back({arrays.vertices[t.vertex[0]], arrays.vertices[t.vertex[1]], arrays.vertices[t.vertex[2]]});
     const BallOracle rolled(triangles, {}, both.radius - first.radius);
     for (Index e = 0; e < sum.subdivision().edge_count(); ++e) {
       if (sum.edge(e).kind == Surface::EdgeKind::rim) continue;
       const Point3 p = sum.curve(e, 3)[1];
       const Long off = rolled.distance({p.x, p.y, p.z}) - (both.radius - first.radius);
-      if (std::fabs(off) > mesh->deviation)
+      if (std::fabs(off) > mesh->deviation())
         RC_LOG() << "off by " << double(off) << " at " << p.x << ' ' << p.y << ' ' << p.z << '\n';
-      RC_ASSERT(std::fabs(off) <= mesh->deviation * (1 + 1e-6));
+      RC_ASSERT(std::fabs(off) <= mesh->deviation() * (1 + 1e-6));
     }
   });
 }
