@@ -143,7 +143,7 @@ GradientRangeOf<Real> Envelope<Real>::sphere_gradient(Point at, const Box& box, 
                         : dy.high < 0 ? -dy.high
                                       : 0,
                far_y = std::max(absolute(dy.low), absolute(dy.high));
-  const Real square = patches_.square_radius(), least = Precision<Real>::least_square * square;
+  const Real square = patches_.square_radius(), least = least_square * square;
   const Real most = square - (near_x * near_x + near_y * near_y), fewest = square - (far_x * far_x + far_y * far_y);
   const Range inverse{1 / square_root(std::max(least, most)), 1 / square_root(std::max(least, fewest))};
   const Range f{-factor, -factor};
@@ -158,7 +158,7 @@ GradientRangeOf<Real> Envelope<Real>::gradient_range(Index i, const Box& box) co
   const Point mid = box.middle();
   const Real aside = (mid.y - f.at.y) * f.gx - (mid.x - f.at.x) * f.gy;
   const Real spread = absolute(f.gx) * box.half_y() + absolute(f.gy) * box.half_x();
-  const Real square = patches_.square_radius(), least = Precision<Real>::least_square * square;
+  const Real square = patches_.square_radius(), least = least_square * square;
   const auto across = [&](Real beta) { return -f.q * beta / square_root(std::max(least, square - beta * beta)); };
   const Range a{across(aside + spread), across(aside - spread)};
   const Range along{f.m * f.gx, f.m * f.gx}, along_y{f.m * f.gy, f.m * f.gy};
@@ -175,7 +175,7 @@ RangeOf<Real> Envelope<Real>::derivative_range(Index i, const Box& box, Gradient
   const Point mid = box.middle();
   const Real aside = (mid.y - f.at.y) * f.gx - (mid.x - f.at.x) * f.gy;
   const Real spread = absolute(f.gx) * box.half_y() + absolute(f.gy) * box.half_x();
-  const Real square = patches_.square_radius(), least = Precision<Real>::least_square * square;
+  const Real square = patches_.square_radius(), least = least_square * square;
   const auto across = [&](Real beta) { return -f.q * beta / square_root(std::max(least, square - beta * beta)); };
   const Real along = f.m * (f.gx * d.x + f.gy * d.y), aslant = d.y * f.gx - d.x * f.gy;
   return Range{across(aside + spread), across(aside - spread)} * Range{aslant, aslant} + Range{along, along};
@@ -187,7 +187,7 @@ GradientOf<Real> Envelope<Real>::bound_gradient(const Bound& b, Point p) const {
   if (b.type == BoundType::line) return {b.nx, b.ny};
   if (b.type == BoundType::disc) return {2 * dx, 2 * dy};
   const Real square = patches_.square_radius();
-  const Real up = square_root(std::max(Precision<Real>::least_square * square, square - (dx * dx + dy * dy)));
+  const Real up = square_root(std::max(least_square * square, square - (dx * dx + dy * dy)));
   return {b.nx - b.c * dx / up, b.ny - b.c * dy / up};
 }
 

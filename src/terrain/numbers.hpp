@@ -26,6 +26,9 @@ Real norm(Real x, Real y) {
   return square_root(x * x + y * y);
 }
 
+/// Of the height above the rim where gradients are taken, relative to R: they are steep, but finite.
+constexpr double least_square = 1e-12;
+
 /// Lengths relative to S, the scale of the accuracy contract, and to R.
 template <class Real>
 struct Precision;
@@ -36,7 +39,6 @@ struct Precision<double> {
   static constexpr double noise = 0x1p-49;              ///< heights that differ by less count as equal
   static constexpr double smallest_stretch = 0x1p-50;   ///< of a line, to be cut further
   static constexpr double rounding = 1e-15;             ///< of a sum of a few products
-  static constexpr double least_square = 1e-12;         ///< of the height above the rim, where gradients are taken
   static constexpr double corner = 1e-13;               ///< of directions
 };
 template <>
@@ -46,7 +48,6 @@ struct Precision<DoubleDouble> {
   static constexpr double noise = 0x1p-92;
   static constexpr double smallest_stretch = 0x1p-54;
   static constexpr double rounding = 1e-30;
-  static constexpr double least_square = 1e-24;
   static constexpr double corner = 1e-28;
 };
 

@@ -220,7 +220,7 @@ inline GradientOf<Real> PatchSet<Real>::gradient(Index i, Point p) const {
   const Patch& f = patches_[i];
   if (f.kind == Terrain::FeatureKind::face) return {f.gx, f.gy};
   const Real dx = p.x - f.at.x, dy = p.y - f.at.y;
-  const Real least = Precision<Real>::least_square * square_radius_;
+  const Real least = least_square * square_radius_;
   if (f.kind == Terrain::FeatureKind::vertex) {
     const Real z = square_root(std::max(least, square_radius_ - (dx * dx + dy * dy)));
     return {-dx / z, -dy / z};

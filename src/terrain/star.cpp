@@ -148,7 +148,8 @@ std::optional<PointOf<Real>> Cells<Real>::star_point(const Box& box) const {
   };
 
   // By how much heights may differ at a place that is on their curve as far as lengths in the plane are told apart.
-  const auto height_slack = [&](Gradient g) { return envelope_.tolerance() * size(g) + envelope_.noise(); };
+  const Real most = 2 * square_root(2 * radius * envelope_.tolerance());  // beside a wall, a bit inside of it
+  const auto height_slack = [&](Gradient g) { return std::min(most, envelope_.tolerance() * size(g)) + envelope_.noise(); };
 
   if (const std::optional<Point> end = end_of_thin_bend(box)) return end;
   // A corner that two labels share, or two sides of one, is known beforehand; near the rim the curves there are tangent.
