@@ -14,7 +14,7 @@ Envelope<Real>::Envelope(PatchSet<Real>& patches, double scale, SurfaceCounters&
       fine_cell_((patches.radius() >= scale ? 0x1p-28 : 0x1p-20) * scale),
       smallest_stretch_(Precision<Real>::smallest_stretch * scale),
       noise_(Precision<Real>::noise * scale),
-      rim_width_(2 * tolerance_),
+      rim_width_(2 * Precision<double>::tolerance * scale),
       least_up_(square_root(2 * patches.radius() * tolerance_)),
       far_(patches.radius() >= scale),
       counters_(counters),

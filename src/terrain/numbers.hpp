@@ -43,8 +43,8 @@ struct Precision<double> {
 };
 template <>
 struct Precision<DoubleDouble> {
-  static constexpr double tolerance = 0x1p-40;
-  static constexpr double smallest_cell = 0x1p-36;
+  static constexpr double tolerance = 0x1p-50;
+  static constexpr double smallest_cell = 0x1p-46;
   static constexpr double noise = 0x1p-92;
   static constexpr double smallest_stretch = 0x1p-54;
   static constexpr double rounding = 1e-30;
