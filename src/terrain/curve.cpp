@@ -38,17 +38,21 @@ struct Contact {
   FeatureKind kind;
   Vector<Real> at;
   Vector<Real> direction;  // edge: along it; face: its upward normal
+  Real length;             // of an edge
 };
 
 template <class Real = double>
 Contact<Real> contact_of(const Terrain& terrain, Surface::Index feature) {
   const auto c = terrain.corners(feature);
   const Vector<Real> a(c.point[0]);
-  if (c.count == 1) return {FeatureKind::vertex, a, {0, 0, 0}};
-  if (c.count == 2) return {FeatureKind::edge, a, unit(Vector<Real>(c.point[1]) - a)};
+  if (c.count == 1) return {FeatureKind::vertex, a, {0, 0, 0}, 0};
+  if (c.count == 2) {
+    const Vector<Real> d = Vector<Real>(c.point[1]) - a;
+    return {FeatureKind::edge, a, unit(d), length(d)};
+  }
   Vector<Real> n = unit(cross(Vector<Real>(c.point[1]) - a, Vector<Real>(c.point[2]) - a));
   if (n.z < 0) n = Real(-1) * n;
-  return {FeatureKind::face, a, n};
+  return {FeatureKind::face, a, n, 0};
 }
 
 /// Signed distance of a point from what the ball touches, less R, and its gradient.
@@ -114,7 +118,9 @@ Point3 on_rim(const Contact<double>& c, double radius, Point3 near) {
   const double sign = dot(v, aside) < 0 ? -1 : 1;
   const double flat = std::hypot(c.direction.x, c.direction.y);
   const double along = (v.x * c.direction.x + v.y * c.direction.y) / (flat * flat);
-  return at + (along * c.direction + (sign * radius) * aside);
+  Point3 p = at + (along * c.direction + (sign * radius) * aside);
+  p.z = at.z + std::clamp(along, 0.0, c.length) * c.direction.z;  // a wall may begin a bit beyond the edge's end
+  return p;
 }
 
 }  // namespace

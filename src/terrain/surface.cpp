@@ -28,11 +28,14 @@ std::vector<Point3> Surface::curve(Index e, int points) const {
   base.push_back(vertex_[subdivision_.origin[2 * e + 1]]);
   // A vertex on a wall is at its upper end; an edge that meets the wall further down ends there.
   const double scale = std::max(radius_, terrain_->extent());
+  const bool rim = edge.kind == EdgeKind::rim;
+  const Index upper = edge.feature[0] == none ? edge.feature[1] : edge.feature[0];
+  const bool level = rim && terrain_->feature_kind(upper) != Terrain::FeatureKind::face;  // z does not hang on x and y
   for (Point3* end : {&base.front(), &base.back()}) {
-    if (terrain::is_on_edge(*terrain_, radius_, edge, *end, 0x1p-34 * scale))
-      continue;  // on steep patches heights alone say little
-    const double z = edge.kind == EdgeKind::rim ? terrain::project_to_curve(*terrain_, radius_, edge, *end).z
-                                                : terrain::height_on_edge(*terrain_, radius_, edge, *end);
+    // On steep patches heights alone say little.
+    if (!level && terrain::is_on_edge(*terrain_, radius_, edge, *end, 0x1p-34 * scale)) continue;
+    const double z = rim ? terrain::project_to_curve(*terrain_, radius_, edge, *end).z
+                         : terrain::height_on_edge(*terrain_, radius_, edge, *end);
     end->z = z;
   }
   const auto distance = [](Point3 p, Point3 q) { return std::hypot(p.x - q.x, p.y - q.y, p.z - q.z); };
