@@ -36,7 +36,7 @@ std::vector<Point3> Surface::curve(Index e, int points) const {
     if (!level && terrain::is_on_edge(*terrain_, radius_, edge, *end, 0x1p-34 * scale)) continue;
     const double z = rim ? terrain::project_to_curve(*terrain_, radius_, edge, *end).z
                          : terrain::height_on_edge(*terrain_, radius_, edge, *end);
-    end->z = z;
+    if (std::abs(z - end->z) > 0x1p-44 * scale) end->z = z;
   }
   const auto distance = [](Point3 p, Point3 q) { return std::hypot(p.x - q.x, p.y - q.y, p.z - q.z); };
   double whole = 0;
