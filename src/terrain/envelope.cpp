@@ -29,7 +29,7 @@ Envelope<DoubleDouble>* Envelope<Real>::finer(std::span<const Index> candidates,
 }
 
 template <class Real>
-Index Envelope<Real>::winner(Point p, std::span<const Index> candidates) const {
+Index Envelope<Real>::winner(Point p, std::span<const Index> candidates, bool finely) const {
   Index best = none;
   Real highest = below_everything, second = below_everything;
   counters_.height_evaluations += candidates.size();
@@ -53,7 +53,7 @@ Index Envelope<Real>::winner(Point p, std::span<const Index> candidates) const {
   for (const Index c : candidates) {
     if (patches_.contains(c, p) && patches_.extended_height(c, p) >= lowest) equal.push_back(c);
   }
-  if (Envelope<DoubleDouble>* finer = this->finer(equal)) return finer->winner({p.x, p.y}, equal);
+  if (finely) return finer(equal)->winner({p.x, p.y}, equal);
   return *std::min_element(equal.begin(), equal.end(), [&](Index c, Index d) {
     const Patch &f = patches_[c], &g = patches_[d];
     return f.kind != g.kind ? f.kind > g.kind : f.feature < g.feature;  // face, edge, vertex

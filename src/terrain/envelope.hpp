@@ -52,7 +52,7 @@ class Envelope {
 
   /// Highest candidate at p, among equals a face before an edge before a vertex, then the lowest feature number; none
   /// if no patch lies over p.
-  Index winner(Point p, std::span<const Index> candidates) const;
+  Index winner(Point p, std::span<const Index> candidates) const { return winner(p, candidates, finer_ != nullptr); }
 
   /// Appends to `out` the candidates that may appear in the box: those whose domain meets it and that are not hidden below the
   /// bodies of the champions. Champions that are candidates are kept wherever their domain meets the box.
@@ -101,6 +101,7 @@ class Envelope {
  private:
   template <class Other>
   friend class Envelope;
+  Index winner(Point p, std::span<const Index> candidates, bool finely) const;
   /// What costs too much for large cells, of which few need it.
   static constexpr bool is_fine = std::is_same_v<Real, DoubleDouble>;
   struct Line;

@@ -208,7 +208,7 @@ Real Envelope<Real>::locate(const Line& line, Real t0, Index l0, Real t1, Index 
   for (int i = 0; i < 60 && b - a > smallest_stretch_; ++i) {
     const Real m = a + (b - a) / 2;
     if (m == a || m == b) break;
-    (winner(line.point(m), both) == l0 ? a : b) = m;
+    (winner(line.point(m), both, false) == l0 ? a : b) = m;  // where rounding decides, it may
   }
   // Where the one ends before the other begins there is a gap between two walls, if too narrow to show.
   const bool is_gap =
