@@ -6,7 +6,7 @@ namespace krepl::kernel {
 
 /// About 106 bits as an unevaluated sum of two doubles (Dekker 1971), with the exponents of double. The upper rung of the
 /// ladder: ties are ordinary on lattices, and this is ten times as fast as quadruple precision in software.
-/// Needs round-to-nearest and no contraction to fused multiply-add.
+/// Needs round-to-nearest and no contraction to fused multiply-add. Infinities can be compared, not computed with.
 struct DoubleDouble {
   double high = 0, low = 0;
 
@@ -34,7 +34,6 @@ struct DoubleDouble {
     return {p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
   }
 
-  /// Of infinities and what is not a number only comparisons are right.
   [[gnu::always_inline]] friend DoubleDouble operator-(DoubleDouble a) { return {-a.high, -a.low}; }
   [[gnu::always_inline]] friend DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
     DoubleDouble s = sum(a.high, b.high);

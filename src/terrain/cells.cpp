@@ -27,7 +27,6 @@ Cells<Real>::Cells(CellMap& map, Envelope<Real>& envelope, SurfaceCounters& coun
       envelope_(envelope),
       counters_(counters),
       context_(context),
-      far_(envelope.is_far()),
       finer_(finer) {}
 
 template <class Real>
@@ -206,7 +205,7 @@ bool Cells<Real>::cannot_close(Index a, Index b, const Box& box) const {
     if (!patches[l].has_rim) continue;
     for (const Bound& side : patches.bounds(l)) {
       if (!side.rim || envelope_.covers(side, box)) continue;
-      if (!far_ || !envelope_.stay_apart(l, l == a ? b : a, none, box)) return false;
+      if (!envelope_.is_far() || !envelope_.stay_apart(l, l == a ? b : a, none, box)) return false;
     }
   }
   if (patches[a].kind != Kind::face && patches[b].kind != Kind::face) return true;
@@ -419,7 +418,7 @@ bool Cells<Real>::settle_strips(const Box& box) {
     for (const Turn* turn : {&s, &t}) {
       if (turn->meeting != Meeting::valley && (corner_in(turn->before, box) || corner_in(turn->after, box))) return false;
     }
-    if (far_ || is_fine) {
+    if (envelope_.is_far() || is_fine<Real>) {
       for (const Index l : {s.before, s.after}) {
         if (l == none || (l != t.before && l != t.after)) continue;
         const auto beyond = [&](const Turn& turn) {

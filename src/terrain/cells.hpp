@@ -53,7 +53,6 @@ class Cells {
     double at;
   };
 
-  static constexpr bool is_fine = std::is_same_v<Real, DoubleDouble>;
   static constexpr std::size_t most_settled = 24;  // candidates; cells with more are cut at once
 
   bool subdivide(const Cell& cell, std::size_t first, int depth);
@@ -106,7 +105,6 @@ class Cells {
   Envelope<Real>& envelope_;
   SurfaceCounters& counters_;
   const Context& context_;
-  bool far_;  // R is at least the extent
   Cells<DoubleDouble>* finer_;
   std::vector<Index> stack_;   // candidates
   std::array<std::vector<double>, 2> corner_place_;  // x and y of corners in a cell

@@ -102,8 +102,6 @@ class Envelope {
   template <class Other>
   friend class Envelope;
   Index winner(Point p, std::span<const Index> candidates, bool finely) const;
-  /// What costs too much for large cells, of which few need it.
-  static constexpr bool is_fine = std::is_same_v<Real, DoubleDouble>;
   struct Line;
   struct BoxFrame;
   class Cover;

@@ -57,7 +57,7 @@ inline bool Envelope<Real>::domain_meets(Index i, const BoxFrame& box) const {
   for (const Bound& b : patches_.bounds(i)) {
     const Real slack = !b.rim ? 0 : b.type == BoundType::disc ? 2 * patches_.radius() * tolerance_ : tolerance_;
     if (b.negative ? extreme<1>(b, box, least_up) >= -slack : extreme<-1>(b, box, least_up) > -slack) return false;
-    if (is_fine && b.type == BoundType::cone && least_up == 0 && lies_beyond(b, box)) return false;
+    if (is_fine<Real> && b.type == BoundType::cone && least_up == 0 && lies_beyond(b, box)) return false;
   }
   return f.kind != FeatureKind::edge || !f.has_rim || axis_meets(f, box);
 }
@@ -529,7 +529,7 @@ void Envelope<Real>::filter(const Box& box, std::span<const Index> champions, st
     if (!small) return false;
     for (const Index k : champions) {
       if (hidden_beside(c, k, frame) || hidden_below_face(c, k, frame) || lies_in(c, k)) return true;
-      if (is_fine && hidden_by_axis(c, k, box)) return true;
+      if (is_fine<Real> && hidden_by_axis(c, k, box)) return true;
     }
     return false;
   };
@@ -543,10 +543,8 @@ void Envelope<Real>::filter(const Box& box, std::span<const Index> champions, st
 
 template <class Real>
 bool Envelope<Real>::stays_hidden(Index c, const Box& box, std::span<const Index> labels, int depth) const {
-  const Box& own = patches_.box(c);
-  const Box part{{std::max(box.low.x, own.low.x), std::max(box.low.y, own.low.y)},
-                 {std::min(box.high.x, own.high.x), std::min(box.high.y, own.high.y)}};
-  if (!(part.low.x <= part.high.x && part.low.y <= part.high.y)) return true;
+  const Box part = box.intersection(patches_.box(c));
+  if (part.is_empty()) return true;
   const BoxFrame frame(part);
   if (!domain_meets(c, frame)) return true;
   Cover cover(*this, frame, labels);

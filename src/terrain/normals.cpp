@@ -91,10 +91,8 @@ std::size_t Envelope<Real>::normals(Index i, const Box& box, Vector* out) const 
 /// are weighted means for two places k.
 template <class Real>
 bool Envelope<Real>::hidden_by_balls(Index i, std::span<const Index> labels, const Box& box) const {
-  const Box& own = patches_.box(i);
-  const Box part{{std::max(box.low.x, own.low.x), std::max(box.low.y, own.low.y)},
-                 {std::min(box.high.x, own.high.x), std::min(box.high.y, own.high.y)}};
-  if (!(part.low.x <= part.high.x && part.low.y <= part.high.y)) return true;
+  const Box part = box.intersection(patches_.box(i));
+  if (part.is_empty()) return true;
   Vector place[3], normal[8], other[8];
   const std::size_t places = contacts(i, part, place), normals_count = normals(i, part, normal);
   std::size_t others = 0;
@@ -145,10 +143,8 @@ bool Envelope<Real>::hidden_by_axis(Index lower, Index upper, const Box& box) co
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (c.kind == FeatureKind::face || k.kind != FeatureKind::edge) return false;
   if (c.kind == FeatureKind::edge && absolute(c.gx * k.gy - c.gy * k.gx) > 0x1p-8) return false;
-  const Box& own = patches_.box(lower);
-  const Box part{{std::max(box.low.x, own.low.x), std::max(box.low.y, own.low.y)},
-                 {std::min(box.high.x, own.high.x), std::min(box.high.y, own.high.y)}};
-  if (!(part.low.x <= part.high.x && part.low.y <= part.high.y)) return true;
+  const Box part = box.intersection(patches_.box(lower));
+  if (part.is_empty()) return true;
   Vector place[3], normal[8];
   const std::size_t places = contacts(lower, part, place), nodes = normals(lower, part, normal);
   const Vector d{k.gx * k.flat, k.gy * k.flat, k.m * k.flat};

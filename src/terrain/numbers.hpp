@@ -18,6 +18,10 @@ using kernel::absolute;
 using kernel::DoubleDouble;
 using kernel::square_root;
 
+/// For what costs too much in large cells, of which few need it.
+template <class Real>
+inline constexpr bool is_fine = std::is_same_v<Real, DoubleDouble>;
+
 inline bool is_finite(double x) { return std::isfinite(x); }
 inline bool is_finite(DoubleDouble x) { return std::isfinite(x.high); }
 
@@ -79,6 +83,10 @@ struct BoxOf {
   /// Counter-clockwise from the lowest.
   std::array<Point, 4> corners() const { return {low, {high.x, low.y}, high, {low.x, high.y}}; }
   bool contains(Point p) const { return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y; }
+  BoxOf intersection(const BoxOf& b) const {
+    return {{std::max(low.x, b.low.x), std::max(low.y, b.low.y)}, {std::min(high.x, b.high.x), std::min(high.y, b.high.y)}};
+  }
+  bool is_empty() const { return !(low.x <= high.x && low.y <= high.y); }
   bool meets(const BoxOf& b) const { return b.high.x >= low.x && b.low.x <= high.x && b.high.y >= low.y && b.low.y <= high.y; }
 };
 using Box = BoxOf<double>;

@@ -42,6 +42,13 @@ struct Rectangle {
   }
 };
 
+/// Direction of an edge out of one of its ends: unit, in space.
+template <class Real, class EdgeFrame>
+Vector3<Real> outward(const EdgeFrame& e, bool at_a) {
+  const Vector3<Real> d{e.gx / e.q, e.gy / e.q, e.m / e.q};
+  return at_a ? d : -d;
+}
+
 template <class Real>
 PointOf<Real> place_of(Point3 p) {
   return {p.x, p.y};
@@ -120,7 +127,6 @@ void PatchSet<Real>::build(const TerrainWindow& window, double radius) {
   corners_.clear();
   edges_.assign(window.edges().size(), {});
   face_patch_.assign(window.faces().size(), none);
-  vertex_patch_.assign(window.vertices().size(), none);
   for (Index e = 0; e < edges_.size(); ++e) {
     place(e);
     if (window.edges()[e].core) examine(e);
@@ -137,7 +143,7 @@ void PatchSet<Real>::build(const TerrainWindow& window, double radius) {
   bounds_.reserve(4 * patches_.capacity());
   patches_.resize(number);
   boxes_.resize(number);
-  for (Index v = 0; v < vertex_patch_.size(); ++v) {
+  for (Index v = 0; v < window.vertices().size(); ++v) {
     if (window.vertices()[v].core) add_vertex(v);
   }
   for (Index f = 0; f < face_patch_.size(); ++f) {
@@ -328,8 +334,7 @@ typename PatchSet<Real>::NormalPolygon PatchSet<Real>::normals_of(Index v) const
   for (const Index i : window_->edges_of_vertex(v)) {
     const EdgeFrame& e = edges_[i];
     if (e.length == 0) continue;
-    const Vector3<Real> d{e.gx / e.q, e.gy / e.q, e.m / e.q};
-    polygon.add_edge(window_->edges()[i].a == v ? d : -d, e.shape == EdgeShape::convex);
+    polygon.add_edge(outward<Real>(e, window_->edges()[i].a == v), e.shape == EdgeShape::convex);
   }
   polygon.close();
   return polygon;
@@ -350,7 +355,6 @@ void PatchSet<Real>::add_vertex(Index v) {
   if (!polygon.has_inside()) return continue_straight(v);
 
   const Index patch = Index(patches_.size());
-  vertex_patch_[v] = patch;
   Patch p{};
   p.kind = FeatureKind::vertex;
   p.feature = window_->vertices()[v].feature;
@@ -390,19 +394,15 @@ void PatchSet<Real>::add_vertex(Index v) {
 template <class Real>
 void PatchSet<Real>::continue_straight(Index v) {
   const auto around = window_->edges_of_vertex(v);
-  const auto direction = [&](Index i) {
-    const EdgeFrame& e = edges_[i];
-    const Vector3<Real> d{e.gx / e.q, e.gy / e.q, e.m / e.q};
-    return window_->edges()[i].a == v ? d : -d;
-  };
+  const auto at_a = [&](Index i) { return window_->edges()[i].a == v; };
   for (std::size_t i = 0; i < around.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       EdgeFrame &e = edges_[around[i]], &f = edges_[around[j]];
       if (e.patch == none || f.patch == none) continue;
-      const Vector3<Real> u = direction(around[i]), w = direction(around[j]);
+      const Vector3<Real> u = outward<Real>(e, at_a(around[i])), w = outward<Real>(f, at_a(around[j]));
       if (length(cross(u, w)) > flat_angle || dot(u, w) > 0) continue;
-      e.end_patch[window_->edges()[around[i]].a == v ? 0 : 1] = f.patch;
-      f.end_patch[window_->edges()[around[j]].a == v ? 0 : 1] = e.patch;
+      e.end_patch[at_a(around[i]) ? 0 : 1] = f.patch;
+      f.end_patch[at_a(around[j]) ? 0 : 1] = e.patch;
     }
   }
 }

@@ -188,7 +188,7 @@ class PatchSet {
   std::vector<Bound> bounds_;
   std::vector<Point> corners_;
   std::vector<EdgeFrame> edges_;
-  std::vector<Index> face_patch_, vertex_patch_;
+  std::vector<Index> face_patch_;
   std::vector<bool> loaded_;
 };
 

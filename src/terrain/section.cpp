@@ -15,7 +15,7 @@ struct Envelope<Real>::Line {
 
 template <class Real>
 void Envelope<Real>::section(bool vertical, double at, double from, double to, Index start, Index end,
-                       std::span<const Index> candidates, std::vector<LineCrossing>& out) {
+                             std::span<const Index> candidates, std::vector<LineCrossing>& out) {
   ++counters_.lines;
   out_ = &out;
   stack_.assign(candidates.begin(), candidates.end());
@@ -196,7 +196,7 @@ Real Envelope<Real>::locate(const Line& line, Real t0, Index l0, Real t1, Index 
     // The domains of both reach as far as where the heights are equal, or one of them ends before.
     if (seam != nullptr || (patches_.contains(l0, p) && patches_.contains(l1, p))) {
       how = seam != nullptr ? Meeting::seam : Meeting::valley;
-      if (seam != nullptr) return t;
+      if (how == Meeting::seam) return t;
       const Gradient g = patches_.gradient(l0, p), h = patches_.gradient(l1, p);
       const Real slope = line.vertical ? g.y - h.y : g.x - h.x;
       if (!(noise_ * (1 + size(g)) > tolerance_ * absolute(slope))) return t;
