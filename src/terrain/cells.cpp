@@ -125,8 +125,13 @@ bool Cells<Real>::refine(const Cell& cell, std::span<const Index> candidates) {
   const auto coordinates = [](Point p) { return PointOf<DoubleDouble>{p.x, p.y}; };
   typename Cells<DoubleDouble>::Cell same{{coordinates(cell.box.low), coordinates(cell.box.high)}, {}};
   std::copy(cell.side, cell.side + 4, same.side);
-  envelope_.finer(candidates, true);
-  return finer_->run(same, candidates);
+  // Also labels that reach into the cell by less than matters in double.
+  std::vector<Index> all(candidates.begin(), candidates.end());
+  for (const Turn& t : turns_) {
+    if (t.after != none && std::find(all.begin(), all.end(), t.after) == all.end()) all.push_back(t.after);
+  }
+  envelope_.finer(all, true);
+  return finer_->run(same, all);
 }
 
 template <class Real>

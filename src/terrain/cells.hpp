@@ -91,6 +91,7 @@ class Cells {
   bool is_seen(Index label) const;
   bool is_thin(Index patch, Index a, Index b, const Box& box, Real width) const;
   std::optional<Point> end_of_thin_bend(const Box& box) const;
+  std::optional<Point> end_of_thin_strip() const;
   bool is_thin_bend(Index a, Index b, const Box& box) const;
   bool is_tangent_sliver(Index patch, const Box& box) const;
   bool all_are_prisms(std::span<const Index> candidates, const Box& box) const;

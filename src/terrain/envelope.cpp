@@ -124,8 +124,13 @@ Meeting Envelope<Real>::meeting(Index a, Index b, Point p) const {
   if (a == none || b == none) return Meeting::rim;
   if (patches_.seam(a, b) != nullptr) return Meeting::seam;
   const bool a_ends = rim_at(a, p) != nullptr, b_ends = rim_at(b, p) != nullptr;
-  if (!a_ends && !b_ends) return Meeting::valley;
   const Real difference = border_height(a, p) - border_height(b, p);
+  if (!a_ends && !b_ends) {
+    // Heights that differ by more than they can beside a wall: a patch too thin to show lies between one of the two and its wall.
+    const Gradient g = patches_.gradient(a, p), h = patches_.gradient(b, p);
+    const Real slack = 0x1p-14 * patches_.radius() + 64 * tolerance_ * norm(g.x - h.x, g.y - h.y);
+    return absolute(difference) <= slack ? Meeting::valley : Meeting::rim;
+  }
   // Just before its end a patch falls steeply: where the other one is higher than its rim, it has met that one before.
   if (a_ends != b_ends && (a_ends ? difference < 0 : difference > 0)) return Meeting::valley;
   const Gradient g = a_ends ? rim_gradient(a) : patches_.gradient(a, p), h = b_ends ? rim_gradient(b) : patches_.gradient(b, p);

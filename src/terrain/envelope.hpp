@@ -122,7 +122,7 @@ class Envelope {
   Real locate(const Line& line, Real t0, Index l0, Real t1, Index l1, Meeting& meeting) const;
   template <class Function>
   Real root(const Function& value, Real a, Real fa, Real b, Real fb) const;
-  Point support_point(Index patch, Point mid, Real size) const;
+  Point support_point(Index patch, const BoxFrame& box) const;
   Plane plane_of(const Patch& face, Point p) const;
   bool is_steep(const Patch& patch) const;
   Plane support(Index patch, const BoxFrame& box) const;
@@ -141,11 +141,12 @@ class Envelope {
   };
   std::size_t contacts(Index patch, const Box& box, Vector* out) const;
   std::size_t normals(Index patch, const Box& box, Vector* out) const;
+  bool hidden_by_feature(Index lower, std::span<const Index> uppers, const BoxFrame& frame) const;
   bool hidden_by_axis(Index lower, Index upper, const Box& box) const;
   bool hidden_by_balls(Index patch, std::span<const Index> labels, const Box& box) const;
   bool curve_function(Index own, Index other, std::span<const Vector> places, std::span<const Vector> normals, Real* value,
                       Real& slack) const;
-  bool back_to_back(const Bound& a, const Bound& b, const Box& box) const;
+  bool back_to_back(const Bound& a, const Bound& b, const Box& box, Real inset) const;
   bool domain_covers(Index patch, const BoxFrame& box) const;
   bool domain_meets(Index patch, const BoxFrame& box) const;
   bool lies_beyond(const Bound& bound, const BoxFrame& box) const;

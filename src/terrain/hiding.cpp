@@ -103,23 +103,28 @@ bool Envelope<Real>::domain_meets(Index i, const Box& box) const {
 template <class Real>
 bool Envelope<Real>::covers(const Bound& b, const Box& box) const { return is_within(b, BoxFrame(box)); }
 
-/// Where a tangent plane bounds the patch well over a box of the given size: in its middle, but not closer to the rim
-/// than that.
+/// Where a tangent plane bounds the patch well over a box: in its middle, but not closer to the rim than the box is wide, unless
+/// all of the box is. Beside the rim heights fall like square roots, and what matters is how far inside the box reaches across it.
 template <class Real>
-inline PointOf<Real> Envelope<Real>::support_point(Index i, Point mid, Real size) const {
+inline PointOf<Real> Envelope<Real>::support_point(Index i, const BoxFrame& box) const {
   const Patch& f = patches_[i];
+  const Point mid = box.mid;
   if (f.kind == FeatureKind::face) return mid;
-  const Real radius = patches_.radius(), most = radius - std::min(size, radius / 2);
+  const Real radius = patches_.radius(), size = std::min(2 * std::max(box.hx, box.hy), radius / 2);
   const Real dx = mid.x - f.at.x, dy = mid.y - f.at.y;
   if (f.kind == FeatureKind::vertex) {
-    const Real square = dx * dx + dy * dy;
+    const Real square = dx * dx + dy * dy, most = radius - size;
     if (square <= most * most) return mid;
     const Real s = most / square_root(square);
     return {f.at.x + s * dx, f.at.y + s * dy};
   }
-  const Real aside = dy * f.gx - dx * f.gy;
-  if (absolute(aside) <= most) return mid;
-  const Real shift = (aside > 0 ? most : -most) - aside;
+  const Real aside = dy * f.gx - dx * f.gy, distance = absolute(aside);
+  if (distance <= radius - size) return mid;
+  const Real spread = absolute(f.gx) * box.hy + absolute(f.gy) * box.hx;
+  const Real inside = radius - distance + spread;
+  const Real at = radius - std::max(least_square * radius, std::min({size, 2 * spread, inside}));
+  if (distance <= at) return mid;
+  const Real shift = (aside > 0 ? at : -at) - aside;
   return {mid.x - shift * f.gy, mid.y + shift * f.gx};
 }
 
@@ -140,7 +145,7 @@ inline typename Envelope<Real>::Plane Envelope<Real>::support(Index i, const Box
   const Patch& f = patches_[i];
   const Point mid = box.mid;
   if (f.kind != FeatureKind::face) {
-    const Point p = support_point(i, mid, 2 * std::max(box.hx, box.hy));
+    const Point p = support_point(i, box);
     const Gradient g = patches_.gradient(i, p);
     return {patches_.extended_height(i, p) + g.x * (mid.x - p.x) + g.y * (mid.y - p.y), g};
   }
@@ -193,9 +198,10 @@ std::optional<typename Envelope<Real>::Wall> Envelope<Real>::wall_through(Index 
 
 template <class Real>
 std::optional<BoundOf<Real>> Envelope<Real>::wall_above(Index upper, Index lower, const Box& box) const {
-  const std::optional<Wall> wall = wall_through(upper, BoxFrame(box));
+  const BoxFrame frame(box);
+  const std::optional<Wall> wall = wall_through(upper, frame);
   if (!wall) return std::nullopt;
-  const Point mid = box.middle(), p = support_point(lower, mid, box.larger_side());
+  const Point p = support_point(lower, frame);
   const Gradient g = patches_.gradient(lower, p);
   for (const Point q : box.corners()) {
     if (!(patches_.extended_height(lower, p) + g.x * (q.x - p.x) + g.y * (q.y - p.y) <
@@ -271,7 +277,7 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
   const Real beta = aside(k, frame.mid), square = patches_.square_radius();
   const Real spread = absolute(k.gx) * frame.hy + absolute(k.gy) * frame.hx;
   const Real near = std::max(Real(0), absolute(beta) - spread), far = absolute(beta) + spread;
-  const Real up[2] = {square_root(std::max(Real(0), square - far * far)), square_root(std::max(Real(0), square - near * near))};
+  Real up[2] = {square_root(std::max(Real(0), square - far * far)), square_root(std::max(Real(0), square - near * near))};
   // Where the lower one is nearer to its wall all over the box, it falls the faster the nearer: the least slope is enough.
   const bool inwards = std::all_of(apart, apart + 4, [&](Real e) { return beta > 0 ? e >= 0 : e <= 0; });
   Real slope[2] = {0, 0};
@@ -285,6 +291,16 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
     } else {
       slope[0] = slope[1] = (beta > 0 ? near : -near) / square_root(square - near * near);
     }
+  }
+  // A ball that touches the lower one is no higher above its axis than that edge is long.
+  if (c.m != 0) {
+    Real room = 0;
+    for (const Point p : corner) {
+      const Real along = (p.x - c.at.x) * c.gx + (p.y - c.at.y) * c.gy;
+      room = std::max(room, c.m > 0 ? c.length - along : along);
+    }
+    const Real most = room / absolute(c.m * c.flat) + widest * std::max(absolute(slope[0]), absolute(slope[1]));
+    for (Real& u : up) u = std::min(u, most);
   }
   for (int i = 0; i < 4; ++i) {
     const Real level = axis_height(upper, corner[i]) - axis_height(lower, corner[i]);
@@ -350,14 +366,19 @@ bool Envelope<Real>::lies_in(Index lower, Index upper) const {
   return holds(middle, (top_a + top_b) / 2, tolerance_) && holds(a, top_a, -tolerance) && holds(b, top_b, -tolerance);
 }
 
-/// True if two straight walls run along each other in the box, each with its patch on its own side and no gap between.
+/// True if the outlines of two bodies, moved inwards by `inset` in all, leave no gap between them in the box that is wide enough to show.
+/// How far a place is outside of each is at most a convex function, and so is their sum.
 template <class Real>
-bool Envelope<Real>::back_to_back(const Bound& a, const Bound& b, const Box& box) const {
-  if (a.type != BoundType::line || b.type != BoundType::line) return false;
-  const Real s = a.sign(), t = b.sign();
-  const Point m = box.middle();
-  const Real spread = absolute(s * a.nx + t * b.nx) * box.half_x() + absolute(s * a.ny + t * b.ny) * box.half_y();
-  return s * a.value(m, 0) + t * b.value(m, 0) + spread <= tolerance_ / 4;
+bool Envelope<Real>::back_to_back(const Bound& a, const Bound& b, const Box& box, Real inset) const {
+  const Real square = patches_.square_radius();
+  const auto outside = [&](const Bound& wall, Point p) {
+    const Real value = wall.sign() * wall.value(p, square);
+    return wall.type == BoundType::disc ? value / (2 * patches_.radius()) : value;
+  };
+  for (const Point p : box.corners()) {
+    if (!(outside(a, p) + outside(b, p) + inset <= 2 * tolerance_)) return false;  // twice: lines round what they leave out
+  }
+  return true;
 }
 
 /// The bodies of a few labels over a box, evaluated at its corners as far as needed: a concave height is least at a
@@ -470,8 +491,8 @@ class Envelope<Real>::Cover {
         if ((m[k] | m[l]) != all_corners()) continue;
         const Body &a = body_[k], &b = body_[l];
         if (!a.ends && !b.ends && below_mean(a, b, t)) return true;
-        // Two walls back to back: one of the bodies is there at every place.
-        if (m[k] == m[l] && a.wall && b.wall && envelope_.back_to_back(a.wall->outline, b.wall->outline, frame_.box)) {
+        // Two walls back to back: one of the bodies is there at every place that matters.
+        if (m[k] == m[l] && a.wall && b.wall && envelope_.back_to_back(a.wall->outline, b.wall->outline, frame_.box, 0)) {
           return true;
         }
       }
@@ -498,6 +519,16 @@ class Envelope<Real>::Cover {
   std::array<Point, 4> corner_;
   Body body_[most];
 };
+
+/// True if one of the upper features hides the patch by the way the two lie to each other.
+template <class Real>
+bool Envelope<Real>::hidden_by_feature(Index lower, std::span<const Index> uppers, const BoxFrame& frame) const {
+  for (const Index k : uppers) {
+    if (hidden_beside(lower, k, frame) || hidden_below_face(lower, k, frame) || lies_in(lower, k)) return true;
+    if (is_fine<Real> && hidden_by_axis(lower, k, frame.box)) return true;
+  }
+  return false;
+}
 
 template <class Real>
 void Envelope<Real>::filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
@@ -526,12 +557,7 @@ void Envelope<Real>::filter(const Box& box, std::span<const Index> champions, st
   const auto is_hidden = [&](Index c) {
     if (small && cover.hides(c)) return true;
     if (far_ && hidden_by_balls(c, champions, box)) return true;
-    if (!small) return false;
-    for (const Index k : champions) {
-      if (hidden_beside(c, k, frame) || hidden_below_face(c, k, frame) || lies_in(c, k)) return true;
-      if (is_fine<Real> && hidden_by_axis(c, k, box)) return true;
-    }
-    return false;
+    return small && hidden_by_feature(c, champions, frame);
   };
   std::size_t kept = begin;
   for (std::size_t i = begin; i < out.size(); ++i) {
@@ -550,6 +576,7 @@ bool Envelope<Real>::stays_hidden(Index c, const Box& box, std::span<const Index
   Cover cover(*this, frame, labels);
   if (cover.hides(c)) return true;
   if (far_ && hidden_by_balls(c, labels, part)) return true;
+  if (is_fine<Real> && hidden_by_feature(c, labels, frame)) return true;
   if (depth == 0) return false;
   Box first = part, second = part;
   if (frame.hx > frame.hy) first.high.x = second.low.x = frame.mid.x;
@@ -557,25 +584,44 @@ bool Envelope<Real>::stays_hidden(Index c, const Box& box, std::span<const Index
   return stays_hidden(c, first, labels, depth - 1) && stays_hidden(c, second, labels, depth - 1);
 }
 
-/// Bodies are concave, and so are weighted means of two of them: least against a plane at the corners of the box.
+/// Bodies are concave, and so are weighted means of two of them: least against a plane at the corners of the box. What is
+/// hardly above the rims of two walls back to back is below the bodies soon inside of them, which rise there like square roots.
 template <class Real>
 bool Envelope<Real>::hidden_within_tolerance(Index i, std::span<const Index> uppers, const Box& box) const {
   constexpr std::size_t most = 6;
   if (box.larger_side() >= 2 * patches_.radius()) return false;
+  const BoxFrame frame(box);
   const std::array<Point, 4> corner = box.corners();
-  const Plane plane = support(i, BoxFrame(box));
+  const Plane plane = support(i, frame);
   const Real hx = plane.gradient.x * box.half_x(), hy = plane.gradient.y * box.half_y(), h = plane.height;
   const Real t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
   std::array<std::array<Real, 4>, most> above;  // of the bodies over the plane
-  std::size_t count = 0;
-  for (std::size_t u = 0; u < uppers.size() && count < most; ++u) {
+  std::array<Bound, most> wall;
+  std::array<Real, most> inset;  // of the wall, where the body is as high as the plane
+  std::size_t count = 0, walls = 0;
+  for (std::size_t u = 0; u < uppers.size() && count < most && walls < most; ++u) {
     bool reaches = true;
     for (int k = 0; k < 4 && reaches; ++k) {
       const Real body = patches_.body_height(uppers[u], corner[k]);
       reaches = body > below_everything;
       above[count][k] = body - t[k] + tolerance_;
     }
-    if (reaches) ++count;
+    if (reaches) {
+      ++count;
+      continue;
+    }
+    const std::optional<Wall> end = wall_through(uppers[u], frame);
+    if (!end) continue;
+    Real excess = 0;  // of the plane over the rim
+    for (int k = 0; k < 4; ++k) excess = std::max(excess, t[k] - (rim_height(uppers[u], corner[k]) - end->lowered + noise_));
+    const Patch& f = patches_[uppers[u]];
+    const Real up = excess / (f.kind == FeatureKind::edge ? f.q : Real(1)), square = up * up / patches_.square_radius();
+    if (!(square < 0.5)) continue;
+    inset[walls] = patches_.radius() * square / 2 * (1 + square);
+    for (std::size_t w = 0; w < walls; ++w) {
+      if (back_to_back(wall[w], end->outline, box, inset[w] + inset[walls])) return true;
+    }
+    wall[walls++] = end->outline;
   }
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = 0; b <= a; ++b) {

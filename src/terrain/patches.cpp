@@ -87,10 +87,17 @@ class PatchSet<Real>::NormalPolygon {
   }
   /// False if it has no inside wider than flat_angle.
   bool has_inside() const {
-    Vector middle{0, 0, 0}, inwards{0, 0, 0};
+    if (corners_ < 2) return false;
+    Vector middle{0, 0, 0};
     for (int i = 0; i < corners_; ++i) middle = middle + corner_[i];
-    for (int i = 0; i < sides_; ++i) inwards = inwards - side_[i];
-    return corners_ >= 2 && (is_inside(middle) || is_inside(inwards));
+    if (is_inside(middle)) return true;
+    // Two opposite corners: between the two sides that meet in both.
+    for (int i = 0; i < sides_; ++i) {
+      for (int j = 0; j < i; ++j) {
+        if (is_inside(-(side_[i] + side_[j]))) return true;
+      }
+    }
+    return false;
   }
   std::span<const Vector> corners() const { return {corner_.data(), std::size_t(corners_)}; }
 

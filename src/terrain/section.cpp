@@ -95,16 +95,19 @@ void Envelope<Real>::section(const Line& line, Real t0, Index l0, Real t1, Index
     stack_.resize(begin);
     return;
   }
-  const std::span<const Index> left(stack_.data() + begin, stack_.size() - begin);
-  if (t1 - t0 <= fine_cell_) {
-    if (Envelope<DoubleDouble>* finer = this->finer(left)) {
-      finer->section(line.vertical, double(line.at), double(t0), double(t1), l0, l1, left, *out_);
-      stack_.resize(begin);
-      return;
+  const auto left = [&] { return std::span<const Index>(stack_.data() + begin, stack_.size() - begin); };
+  if (t1 - t0 <= fine_cell_ && finer_ != nullptr) {
+    // Also what reaches into the stretch by less than matters in double.
+    for (int k = 0; k < count; ++k) {
+      if (std::find(stack_.begin() + std::ptrdiff_t(begin), stack_.end(), champions[k]) == stack_.end())
+        stack_.push_back(champions[k]);
     }
+    finer(left())->section(line.vertical, double(line.at), double(t0), double(t1), l0, l1, left(), *out_);
+    stack_.resize(begin);
+    return;
   }
   const Real tm = t0 + (t1 - t0) / 2;
-  const Index lm = winner(line.point(tm), left);
+  const Index lm = winner(line.point(tm), left());
   section(line, t0, l0, tm, lm, begin, depth + 1);
   section(line, tm, lm, t1, l1, begin, depth + 1);
   stack_.resize(begin);

@@ -222,6 +222,7 @@ std::optional<PointOf<Real>> Cells<Real>::star_point(const Box& box) const {
   }
   const Condition &c = condition[first], &d = condition[second];
   const std::optional<Point> p = solve(c, d, middle);
+  if (!p && is_fine<Real>) return end_of_thin_strip();
   if (!p || !all_reach(*p)) return std::nullopt;
   for (const Turn& t : turns_) {  // walls that are none here
     if (t.meeting != Meeting::rim || t.before == none || t.after == none) continue;
