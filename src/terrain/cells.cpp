@@ -517,7 +517,12 @@ template <class Real>
 std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p, const Box& box) const {
   const PatchSet<Real>& patches = envelope_.patches();
   std::optional<Point> nearest;
-  Real least = 0x1p-12 * patches.radius();
+  Real steepest = 1;
+  for (const Turn& t : turns_) {
+    if (t.after != none) steepest = std::max(steepest, patches[t.after].q);
+  }
+  // Sides that part like circles with slopes between them are so close together for that long.
+  Real least = std::max(0x1p-12 * patches.radius(), 4 * steepest * square_root(patches.radius() * envelope_.rim_width()));
   for (std::size_t i = 0; i < turns_.size(); ++i) {
     const Turn &from = turns_[i], &to = turns_[(i + 1) % turns_.size()];
     Index patch = none;

@@ -45,6 +45,8 @@ class Envelope {
   /// Heights that differ by less count as equal.
   Real noise() const { return noise_; }
   Real smallest_cell() const { return smallest_cell_; }
+  /// What is nearer to a wall than that counts as its foot or top; the same in both precisions.
+  Real rim_width() const { return rim_width_; }
   /// Cells and stretches below this are left to the finer envelope, if there is one.
   Real fine_cell() const { return fine_cell_; }
   /// True if R is at least the extent.
