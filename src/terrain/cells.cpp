@@ -232,7 +232,13 @@ bool Cells<Real>::curve_is_simple(const Turn& t, const Box& box) const {
     return (envelope_.derivative_range(t.before, box, {x, y}) - envelope_.derivative_range(t.after, box, {x, y}))
         .excludes_zero();
   };
-  if (never_along(1, 0) || never_along(0, 1) || never_along(1, 1) || never_along(1, -1)) return true;
+  const auto is_simple = [](auto&& never) { return never(1, 0) || never(0, 1) || never(1, 1) || never(1, -1); };
+  if (is_simple(never_along)) return true;
+  for (const auto [steep, other] : {std::pair(t.before, t.after), std::pair(t.after, t.before)}) {
+    if (steep == none || other == none || !is_upright(steep, t.at)) continue;
+    if (is_simple([&](Real x, Real y) { return envelope_.upright_derivative_range(steep, other, box, {x, y}).excludes_zero(); }))
+      return true;
+  }
   // Of two faces in one plane the first one shows wherever it is: along its straight sides.
   const Index first = std::min(t.before, t.after);
   if (t.before != none && t.after != none && are_coplanar(t.before, t.after, box)) return !corner_in(first, box);
@@ -244,25 +250,25 @@ bool Cells<Real>::curve_is_simple(const Turn& t, const Box& box) const {
   return false;
 }
 
-/// True if a wall between two turns stays one: where the lower patch reaches its height the two meet in a valley.
+/// True if a wall from a turn to another place on it stays one: where the lower patch reaches its height the two meet in a valley.
 ///
 /// The lower patch is concave, so its tangents at the two ends bound it.
 template <class Real>
-bool Cells<Real>::stays_wall(const Turn& from, const Turn& to, const Box& box) const {
+bool Cells<Real>::stays_wall(const Turn& from, Point to, const Box& box) const {
   if (from.meeting != Meeting::rim || from.before == none || from.after == none ||
       is_thin_bend(from.before, from.after, box))
     return true;
   const auto [upper, lower] = sides_of_wall(from);
   const PatchSet<Real>& patches = envelope_.patches();
   if (patches[upper].kind == Terrain::FeatureKind::face) return true;
-  const Real dx = to.at.x - from.at.x, dy = to.at.y - from.at.y;
+  const Real dx = to.x - from.at.x, dy = to.y - from.at.y;
   const bool round = patches[upper].kind == Terrain::FeatureKind::vertex;
   const Real sagitta = round ? (dx * dx + dy * dy) / (4 * patches.radius()) : 0;
   const Gradient wall = envelope_.rim_gradient(upper);
   // Of the lower patch over the wall, and how fast that grows on the way to the other end.
   Real steepest = 0, excess[2], slope[2];
   for (const int end : {0, 1}) {
-    const Point p = end == 0 ? from.at : to.at;
+    const Point p = end == 0 ? from.at : to;
     const Gradient g = patches.gradient(lower, p), d{g.x - wall.x, g.y - wall.y};
     excess[end] = envelope_.clamped_height(lower, p) - envelope_.rim_height(upper, p) + size(d) * sagitta;
     slope[end] = (end == 0 ? 1 : -1) * (d.x * dx + d.y * dy);
@@ -288,7 +294,7 @@ template <class Real>
 bool Cells<Real>::settle_arc(const Box& box, bool smallest) {
   const Turn &a = turns_[0], &b = turns_[1];
   if (a.meeting != b.meeting) return settle_star(box, smallest);  // where a valley ends in a wall
-  if (!smallest && !(curve_is_simple(a, box) && stays_wall(a, b, box))) return false;
+  if (!smallest && !(curve_is_simple(a, box) && stays_wall(a, b.at, box))) return false;
   connect(a, b);
   return true;
 }
@@ -362,6 +368,13 @@ bool Cells<Real>::corner_in(Index patch, const Box& box) const {
   return false;
 }
 
+/// True if a cylinder or sphere is nearly vertical at p.
+template <class Real>
+bool Cells<Real>::is_upright(Index patch, Point p) const {
+  const PatchSet<Real>& patches = envelope_.patches();
+  return patches[patch].kind != Terrain::FeatureKind::face && size(patches.gradient(patch, p)) > 16;
+}
+
 /// How far the curve from a turn to another place on it can be from its chord within the box; infinite if that is not known.
 ///
 /// The function f that vanishes along it is zero at both ends, so where its derivative along the chord is within w of itself,
@@ -371,21 +384,27 @@ Real Cells<Real>::bend(const Turn& turn, Point end, const Box& box) const {
   const Real dx = end.x - turn.at.x, dy = end.y - turn.at.y, length = square_root(dx * dx + dy * dy);
   if (!(length > 0)) return 0;
   const Gradient along{dx / length, dy / length}, across{-along.y, along.x};
-  Range a, b;
-  if (turn.meeting == Meeting::valley) {
-    a = envelope_.derivative_range(turn.before, box, along) - envelope_.derivative_range(turn.after, box, along);
-    b = envelope_.derivative_range(turn.before, box, across) - envelope_.derivative_range(turn.after, box, across);
-  } else {
+  const auto bent = [&](auto&& derivative) {
+    const Range a = derivative(along), b = derivative(across);
+    if (!b.excludes_zero()) return Real(std::numeric_limits<double>::infinity());
+    return (a.high - a.low) * length / (4 * std::min(absolute(b.low), absolute(b.high)));
+  };
+  if (turn.meeting != Meeting::valley) {
     const Bound* side = side_along(turn);
     if (side == nullptr) return std::numeric_limits<double>::infinity();
     if (side->type == BoundType::line) return 0;
     const GradientRange g = envelope_.bound_gradient_range(*side, box);
-    const auto directed = [&](Gradient d) { return g.x * Range{d.x, d.x} + g.y * Range{d.y, d.y}; };
-    a = directed(along);
-    b = directed(across);
+    return bent([&](Gradient d) { return g.x * Range{d.x, d.x} + g.y * Range{d.y, d.y}; });
   }
-  if (!b.excludes_zero()) return std::numeric_limits<double>::infinity();
-  return (a.high - a.low) * length / (4 * std::min(absolute(b.low), absolute(b.high)));
+  Real least = bent([&](Gradient d) {
+    return envelope_.derivative_range(turn.before, box, d) - envelope_.derivative_range(turn.after, box, d);
+  });
+  for (const Index steep : {turn.before, turn.after}) {
+    if (!is_upright(steep, turn.at)) continue;
+    const Index other = steep == turn.before ? turn.after : turn.before;
+    least = std::min(least, bent([&](Gradient d) { return envelope_.upright_derivative_range(steep, other, box, d); }));
+  }
+  return least;
 }
 
 /// Curves side by side: each pair of labels meets at exactly two turns, which nest like brackets.
@@ -405,7 +424,7 @@ bool Cells<Real>::settle_strips(const Box& box) {
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    if (mate[i] < 0 || !curve_is_simple(turns_[i], box) || !stays_wall(turns_[i], turns_[std::size_t(mate[i])], box))
+    if (mate[i] < 0 || !curve_is_simple(turns_[i], box) || !stays_wall(turns_[i], turns_[std::size_t(mate[i])].at, box))
       return false;
     for (std::size_t j = 0; j < i; ++j) {
       const int a = std::min(int(i), mate[i]), b = std::max(int(i), mate[i]);
@@ -469,6 +488,8 @@ bool Cells<Real>::settle_star(const Box& box, bool smallest) {
   const std::optional<Point> found = star_point(box);
   if (!found && !smallest) return false;
   if (found && finer_ != nullptr && is_steep()) return false;
+  if (!smallest && !std::all_of(turns_.begin(), turns_.end(), [&](const Turn& t) { return stays_wall(t, *found, box); }))
+    return false;
   const Point p = found ? *found : least_gap(box);
   add_vertex(corner_beside(p, box).value_or(p));
   return true;

@@ -83,7 +83,7 @@ class Cells {
   bool has_corner(Index patch, Point p) const;
   bool share_corner(Index a, Index b, Point p) const;
   bool curve_is_simple(const Turn& turn, const Box& box) const;
-  bool stays_wall(const Turn& from, const Turn& to, const Box& box) const;
+  bool stays_wall(const Turn& from, Point to, const Box& box) const;
   bool cannot_close(Index a, Index b, const Box& box) const;
   bool are_coplanar(Index a, Index b, const Box& box) const;
   bool sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const;
@@ -97,6 +97,7 @@ class Cells {
   bool all_are_prisms(std::span<const Index> candidates, const Box& box) const;
   bool is_hidden(Index patch, const Box& box) const;
   bool corner_in(Index patch, const Box& box) const;
+  bool is_upright(Index patch, Point p) const;
   Real bend(const Turn& turn, Point end, const Box& box) const;
   bool wall_keeps_off(const Turn& from, const Turn& to, const Turn& valley) const;
   void connect(const Turn& a, const Turn& b);

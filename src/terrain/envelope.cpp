@@ -187,6 +187,28 @@ RangeOf<Real> Envelope<Real>::derivative_range(Index i, const Box& box, Gradient
 }
 
 template <class Real>
+RangeOf<Real> Envelope<Real>::upright_derivative_range(Index i, Index other, const Box& box, Gradient d) const {
+  const Patch& f = patches_[i];
+  const Point mid = box.middle();
+  const Gradient axis = rim_gradient(i);
+  const Real q = f.kind == FeatureKind::edge ? f.q : Real(1), dx = mid.x - f.at.x, dy = mid.y - f.at.y;
+  const GradientRange g = gradient_range(other, box);
+  const auto largest = [](Range r) { return std::max(absolute(r.low), absolute(r.high)); };
+  const Real spread = largest(g.x - Range{axis.x, axis.x}) * box.half_x() + largest(g.y - Range{axis.y, axis.y}) * box.half_y();
+  const Real level = clamped_height(other, mid) - (f.z + axis.x * dx + axis.y * dy);
+  const Real rise = axis.x * d.x + axis.y * d.y;
+  const Range inverse{1 / q, 1 / q}, over = Range{level - spread, level + spread} * inverse;
+  const Range slope = (derivative_range(other, box, d) - Range{rise, rise}) * inverse;
+  if (f.kind != FeatureKind::edge) {
+    const Real along = dx * d.x + dy * d.y, reach = absolute(d.x) * box.half_x() + absolute(d.y) * box.half_y();
+    return Range{along - reach, along + reach} + over * slope;
+  }
+  const Real aside = dy * f.gx - dx * f.gy, reach = absolute(f.gx) * box.half_y() + absolute(f.gy) * box.half_x();
+  const Real across = d.y * f.gx - d.x * f.gy;
+  return Range{aside - reach, aside + reach} * Range{across, across} + over * slope;
+}
+
+template <class Real>
 GradientOf<Real> Envelope<Real>::bound_gradient(const Bound& b, Point p) const {
   const Real dx = p.x - b.at.x, dy = p.y - b.at.y;
   if (b.type == BoundType::line) return {b.nx, b.ny};

@@ -84,6 +84,9 @@ class Envelope {
   GradientRange gradient_range(Index patch, const Box& box) const;
   /// Of the derivative of extended_height along a direction of the plane.
   Range derivative_range(Index patch, const Box& box, Gradient direction) const;
+  /// The same of a function that vanishes where a cylinder or sphere is as high as the other patch, and is smooth where it is upright:
+  /// half of a^2 + b^2 - R^2, with a the distance from its axis and b the other patch's height over the axis, measured across it.
+  Range upright_derivative_range(Index patch, Index other, const Box& box, Gradient direction) const;
   /// Height at which a patch ends in a wall: of the points that a ball touches with a horizontal normal.
   Real rim_height(Index patch, Point p) const;
   Gradient rim_gradient(Index patch) const;
@@ -131,12 +134,12 @@ class Envelope {
   Plane support_of_steep(Index patch, const Plane& whole, const BoxFrame& box) const;
   template <int sign>
   Real extreme(const Bound& bound, const BoxFrame& box, Real least_up = 0) const;
-  bool is_within(const Bound& bound, const BoxFrame& box) const;
+  bool is_within(const Bound& bound, const BoxFrame& box, Real least_up = 0) const;
   std::optional<Wall> wall_through(Index patch, const BoxFrame& box) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
   Real axis_height(Index edge, Point p) const;
   bool lies_in(Index lower, Index upper) const;
-  bool hidden_beside(Index lower, Index upper, const BoxFrame& frame) const;
+  bool hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up = 0) const;
   bool hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const;
   struct Vector {
     Real x, y, z;
@@ -148,6 +151,9 @@ class Envelope {
   bool hidden_by_balls(Index patch, std::span<const Index> labels, const Box& box) const;
   bool curve_function(Index own, Index other, std::span<const Vector> places, std::span<const Vector> normals, Real* value,
                       Real& slack) const;
+  Real outside(const Bound& wall, Point p) const;
+  Real inset_of(Index body, const Wall& wall, const Box& box, const Real (&plane)[4]) const;
+  bool hidden_beyond(Index patch, const Wall& wall, Real inset, std::span<const Index> others, const BoxFrame& frame) const;
   bool back_to_back(const Bound& a, const Bound& b, const Box& box, Real inset) const;
   bool domain_covers(Index patch, const BoxFrame& box) const;
   bool domain_meets(Index patch, const BoxFrame& box) const;

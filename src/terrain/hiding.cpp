@@ -36,8 +36,8 @@ inline Real Envelope<Real>::extreme(const Bound& b, const BoxFrame& f, Real leas
 
 /// True if the patch's side of the bound is all of the box.
 template <class Real>
-inline bool Envelope<Real>::is_within(const Bound& b, const BoxFrame& f) const {
-  return b.negative ? extreme<-1>(b, f) > 0 : extreme<1>(b, f) >= 0;
+inline bool Envelope<Real>::is_within(const Bound& b, const BoxFrame& f, Real least_up) const {
+  return b.negative ? extreme<-1>(b, f, least_up) > 0 : extreme<1>(b, f, least_up) >= 0;
 }
 
 template <class Real>
@@ -255,9 +255,9 @@ bool Envelope<Real>::ends_before(Index i, const Bound& wall, const Box& box) con
 /// Two edges that run beside or above each other, as seen from above. With u(b) = sqrt(R^2 - b^2) for the distance b
 /// from one axis and b + e from the other, and s between b / u(b) at the two, their heights differ by
 ///   level + (q_k - q_c) u(b) + q_c e s,
-/// where level and e are linear in the place.
+/// where level and e are linear in the place. `least_up`: of u; what shows nearer to the wall does not matter.
 template <class Real>
-bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& frame) const {
+bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up) const {
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (c.kind != FeatureKind::edge || k.kind != FeatureKind::edge) return false;
   if (absolute(c.gx * k.gy - c.gy * k.gx) > 0x1p-8) return false;
@@ -272,7 +272,7 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
   }
   if (widest > 0x1p-4 * patches_.radius()) return false;
   for (const Bound& b : patches_.bounds(upper)) {
-    if (b.type == BoundType::cone && !is_within(b, frame)) return false;
+    if (b.type == BoundType::cone && !is_within(b, frame, least_up)) return false;
   }
   const Real beta = aside(k, frame.mid), square = patches_.square_radius();
   const Real spread = absolute(k.gx) * frame.hy + absolute(k.gy) * frame.hx;
@@ -292,16 +292,17 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
       slope[0] = slope[1] = (beta > 0 ? near : -near) / square_root(square - near * near);
     }
   }
-  // A ball that touches the lower one is no higher above its axis than that edge is long.
+  // A ball touches the lower edge between its ends: that tells how high it can be above the axis there.
+  Real lowest = least_up;
   if (c.m != 0) {
-    Real room = 0;
-    for (const Point p : corner) {
-      const Real along = (p.x - c.at.x) * c.gx + (p.y - c.at.y) * c.gy;
-      room = std::max(room, c.m > 0 ? c.length - along : along);
-    }
-    const Real most = room / absolute(c.m * c.flat) + widest * std::max(absolute(slope[0]), absolute(slope[1]));
-    for (Real& u : up) u = std::min(u, most);
+    const auto along = [&](Point p) { return (p.x - c.at.x) * c.gx + (p.y - c.at.y) * c.gy; };
+    const Real a[4] = {along(corner[0]), along(corner[1]), along(corner[2]), along(corner[3])};
+    const Real first = std::min({a[0], a[1], a[2], a[3]}), last = std::max({a[0], a[1], a[2], a[3]});
+    const Real slack = widest * std::max(absolute(slope[0]), absolute(slope[1])), scale = absolute(c.m * c.flat);
+    lowest = std::max(lowest, (c.m > 0 ? -last : first - c.length) / scale - slack);
+    for (Real& u : up) u = std::min(u, (c.m > 0 ? c.length - first : last) / scale + slack);
   }
+  for (Real& u : up) u = std::max(u, lowest);
   for (int i = 0; i < 4; ++i) {
     const Real level = axis_height(upper, corner[i]) - axis_height(lower, corner[i]);
     for (const Real s : slope) {
@@ -366,15 +367,16 @@ bool Envelope<Real>::lies_in(Index lower, Index upper) const {
   return holds(middle, (top_a + top_b) / 2, tolerance_) && holds(a, top_a, -tolerance) && holds(b, top_b, -tolerance);
 }
 
+/// How far a place is outside of a wall, beside it; at most a convex function of the place.
+template <class Real>
+Real Envelope<Real>::outside(const Bound& wall, Point p) const {
+  const Real value = wall.sign() * wall.value(p, patches_.square_radius());
+  return wall.type == BoundType::disc ? value / (2 * patches_.radius()) : value;
+}
+
 /// True if the outlines of two bodies, moved inwards by `inset` in all, leave no gap between them in the box that is wide enough to show.
-/// How far a place is outside of each is at most a convex function, and so is their sum.
 template <class Real>
 bool Envelope<Real>::back_to_back(const Bound& a, const Bound& b, const Box& box, Real inset) const {
-  const Real square = patches_.square_radius();
-  const auto outside = [&](const Bound& wall, Point p) {
-    const Real value = wall.sign() * wall.value(p, square);
-    return wall.type == BoundType::disc ? value / (2 * patches_.radius()) : value;
-  };
   for (const Point p : box.corners()) {
     if (!(outside(a, p) + outside(b, p) + inset <= 2 * tolerance_)) return false;  // twice: lines round what they leave out
   }
@@ -584,6 +586,37 @@ bool Envelope<Real>::stays_hidden(Index c, const Box& box, std::span<const Index
   return stays_hidden(c, first, labels, depth - 1) && stays_hidden(c, second, labels, depth - 1);
 }
 
+/// How far inside its wall a body is as high as a plane all over the box, given by its heights at the corners; infinite if that is far.
+template <class Real>
+Real Envelope<Real>::inset_of(Index body, const Wall& wall, const Box& box, const Real (&plane)[4]) const {
+  const std::array<Point, 4> corner = box.corners();
+  Real excess = 0;  // of the plane over the rim
+  for (int k = 0; k < 4; ++k) excess = std::max(excess, plane[k] - (rim_height(body, corner[k]) - wall.lowered + noise_));
+  const Patch& f = patches_[body];
+  const Real up = excess / (f.kind == FeatureKind::edge ? f.q : Real(1)), square = up * up / patches_.square_radius();
+  return square < 0.5 ? patches_.radius() * square / 2 * (1 + square) : Real(std::numeric_limits<double>::infinity());
+}
+
+/// True if what shows of a patch beyond the wall of a body that hides the rest is below another body: it lies in a strip along the patch's
+/// own wall, above which heights rise like square roots.
+template <class Real>
+bool Envelope<Real>::hidden_beyond(Index i, const Wall& wall, Real inset, std::span<const Index> others, const BoxFrame& frame) const {
+  const Patch& f = patches_[i];
+  const std::optional<Wall> own = wall_through(i, frame);
+  if (!own) return false;
+  const std::array<Point, 4> corner = frame.box.corners();
+  Real width = 0;
+  for (const Point p : corner) width = std::max(width, outside(wall.outline, p) + inset - outside(own->outline, p));
+  if (own->outline.type == BoundType::disc) width += 4 * (frame.hx * frame.hx + frame.hy * frame.hy) / (2 * patches_.radius());
+  const Real up = square_root(2 * patches_.radius() * width);
+  return std::any_of(others.begin(), others.end(), [&](Index other) {
+    return std::all_of(corner.begin(), corner.end(), [&](Point p) {
+      const Real strip = f.kind == FeatureKind::edge ? axis_height(i, p) + f.q * up : f.z + up;
+      return patches_.body_height(other, p) - noise_ > strip;
+    });
+  });
+}
+
 /// Bodies are concave, and so are weighted means of two of them: least against a plane at the corners of the box. What is
 /// hardly above the rims of two walls back to back is below the bodies soon inside of them, which rise there like square roots.
 template <class Real>
@@ -597,9 +630,11 @@ bool Envelope<Real>::hidden_within_tolerance(Index i, std::span<const Index> upp
   const Real t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
   std::array<std::array<Real, 4>, most> above;  // of the bodies over the plane
   std::array<Bound, most> wall;
-  std::array<Real, most> inset;  // of the wall, where the body is as high as the plane
+  std::array<Real, most> inset;
   std::size_t count = 0, walls = 0;
+  const Real rim_up = square_root(patches_.radius() * rim_width_);  // above the foot of a wall, where both precisions leave out what shows
   for (std::size_t u = 0; u < uppers.size() && count < most && walls < most; ++u) {
+    if (hidden_beside(i, uppers[u], frame, rim_up)) return true;
     bool reaches = true;
     for (int k = 0; k < 4 && reaches; ++k) {
       const Real body = patches_.body_height(uppers[u], corner[k]);
@@ -612,12 +647,9 @@ bool Envelope<Real>::hidden_within_tolerance(Index i, std::span<const Index> upp
     }
     const std::optional<Wall> end = wall_through(uppers[u], frame);
     if (!end) continue;
-    Real excess = 0;  // of the plane over the rim
-    for (int k = 0; k < 4; ++k) excess = std::max(excess, t[k] - (rim_height(uppers[u], corner[k]) - end->lowered + noise_));
-    const Patch& f = patches_[uppers[u]];
-    const Real up = excess / (f.kind == FeatureKind::edge ? f.q : Real(1)), square = up * up / patches_.square_radius();
-    if (!(square < 0.5)) continue;
-    inset[walls] = patches_.radius() * square / 2 * (1 + square);
+    inset[walls] = inset_of(uppers[u], *end, box, t);
+    if (!is_finite(inset[walls])) continue;
+    if (is_fine<Real> && hidden_beyond(i, *end, inset[walls], uppers, frame)) return true;
     for (std::size_t w = 0; w < walls; ++w) {
       if (back_to_back(wall[w], end->outline, box, inset[w] + inset[walls])) return true;
     }
