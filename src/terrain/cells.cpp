@@ -549,7 +549,7 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p, const Box& box)
     Index patch = none;
     if (from.after == none || !sides_of_one_patch(from, to, box, patch) || patch != from.after) continue;
     const Bound *a = side_along(from), *b = side_along(to);
-    if (a == nullptr || b == nullptr) continue;
+    if (a == nullptr || b == nullptr || a == b) continue;
     for (const Point c : patches.corners(patch)) {
       const Real apart = norm(c.x - p.x, c.y - p.y);
       const auto ends = [&](const Bound& side) {

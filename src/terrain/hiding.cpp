@@ -191,7 +191,10 @@ std::optional<typename Envelope<Real>::Wall> Envelope<Real>::wall_through(Index 
   const Real spread = absolute(f.gx) * box.hx + absolute(f.gy) * box.hy + noise_;
   const Real beyond = std::max({Real(0), spread - along, along + spread - f.length});
   if (beyond * beyond > patches_.radius() * tolerance_ / 4) return std::nullopt;
-  const bool left = dy * f.gx - dx * f.gy > 0;
+  const Real aside = dy * f.gx - dx * f.gy;
+  const bool left = aside > 0;
+  // The wall on the other side.
+  if (absolute(f.gx) * box.hy + absolute(f.gy) * box.hx - absolute(aside) >= patches_.radius()) return std::nullopt;
   const Real limit = left ? patches_.radius() : -patches_.radius();
   return Wall{{f.at, -f.gy, f.gx, limit, BoundType::line, left, none, true, BoundSource::rim, none}, absolute(f.m) * beyond};
 }
