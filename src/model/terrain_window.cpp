@@ -25,7 +25,8 @@ void TerrainWindow::fill(const Terrain& terrain, Point low, Point high) {
   vertices_.clear();
   edges_.clear();
   faces_.clear();
-  if (terrain.is_grid())
+  is_graph_ = terrain.is_grid();
+  if (is_graph_)
     fill_grid(terrain, low, high);
   else
     fill_mesh(terrain, low, high);

@@ -39,6 +39,8 @@ class TerrainWindow {
 
   void fill(const Terrain& terrain, Point low, Point high);
 
+  /// True if nothing lies above or below anything else, as in grids.
+  bool is_graph() const { return is_graph_; }
   std::span<const Vertex> vertices() const { return vertices_; }
   std::span<const Edge> edges() const { return edges_; }
   std::span<const Face> faces() const { return faces_; }
@@ -57,6 +59,7 @@ class TerrainWindow {
   void fill_mesh(const Terrain& terrain, Point low, Point high);
   void connect();
 
+  bool is_graph_ = false;
   std::vector<Vertex> vertices_;
   std::vector<Edge> edges_;
   std::vector<Face> faces_;

@@ -394,7 +394,9 @@ Real Cells<Real>::bend(const Turn& turn, Point end, const Box& box) const {
     if (side == nullptr) return std::numeric_limits<double>::infinity();
     if (side->type == BoundType::line) return 0;
     const GradientRange g = envelope_.bound_gradient_range(*side, box);
-    return bent([&](Gradient d) { return g.x * Range{d.x, d.x} + g.y * Range{d.y, d.y}; });
+    const Real least = bent([&](Gradient d) { return g.x * Range{d.x, d.x} + g.y * Range{d.y, d.y}; });
+    if (side->type != BoundType::cone || size(envelope_.bound_gradient(*side, turn.at)) < 16) return least;
+    return std::min(least, bent([&](Gradient d) { return envelope_.upright_derivative_range(*side, box, d); }));
   }
   Real least = bent([&](Gradient d) {
     return envelope_.derivative_range(turn.before, box, d) - envelope_.derivative_range(turn.after, box, d);

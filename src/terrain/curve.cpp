@@ -169,25 +169,39 @@ bool is_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge
 }
 
 double height_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 p) {
-  double nearest = std::numeric_limits<double>::infinity(), height = p.z;
+  struct Height {
+    double z, slope;
+  };
+  std::array<Height, 2> found;
+  std::size_t count = 0;
   for (const Surface::Index feature : edge.feature) {
     if (feature == Surface::none) continue;
     const Contact<double> c = contact_of(terrain, feature);
     const Vector3 v = Vector3(p) - c.at;
-    double h;
+    double h, slope;
     if (c.kind == FeatureKind::face) {
       h = c.at.z + (radius - c.direction.x * v.x - c.direction.y * v.y) / c.direction.z;
+      slope = std::hypot(c.direction.x, c.direction.y) / c.direction.z;
     } else if (c.kind == FeatureKind::vertex) {
-      h = c.at.z + std::sqrt(std::max(0.0, radius * radius - v.x * v.x - v.y * v.y));
+      const double up = std::sqrt(std::max(0.0, radius * radius - v.x * v.x - v.y * v.y));
+      h = c.at.z + up;
+      slope = radius / up;
     } else {
       const double flat = std::hypot(c.direction.x, c.direction.y), m = c.direction.z / flat;
       const double along = (v.x * c.direction.x + v.y * c.direction.y) / flat;
       const double aside = (v.y * c.direction.x - v.x * c.direction.y) / flat;
-      h = c.at.z + m * along + std::sqrt(std::max(0.0, radius * radius - aside * aside)) / flat;
+      const double up = std::sqrt(std::max(0.0, radius * radius - aside * aside));
+      h = c.at.z + m * along + up / flat;
+      slope = radius / up / flat;
     }
-    if (std::fabs(h - p.z) < nearest) nearest = std::fabs(h - p.z), height = h;
+    found[count++] = {h, slope};
   }
-  return height;
+  if (count == 0) return p.z;
+  if (count == 1) return found[0].z;
+  const auto [a, b] = found;
+  // Of nearly the same height the less steep one is known the better.
+  const bool first = std::fabs(a.z - b.z) <= 0x1p-14 * radius ? a.slope <= b.slope : std::fabs(a.z - p.z) <= std::fabs(b.z - p.z);
+  return first ? a.z : b.z;
 }
 
 }  // namespace krepl::terrain

@@ -209,6 +209,16 @@ RangeOf<Real> Envelope<Real>::upright_derivative_range(Index i, Index other, con
 }
 
 template <class Real>
+RangeOf<Real> Envelope<Real>::upright_derivative_range(const Bound& b, const Box& box, Gradient d) const {
+  const Point mid = box.middle();
+  const Real dx = mid.x - b.at.x, dy = mid.y - b.at.y, along = dx * d.x + dy * d.y, over = dx * b.nx + dy * b.ny;
+  const Real reach = absolute(d.x) * box.half_x() + absolute(d.y) * box.half_y();
+  const Real spread = absolute(b.nx) * box.half_x() + absolute(b.ny) * box.half_y();
+  const Real slope = (b.nx * d.x + b.ny * d.y) / (b.c * b.c);
+  return Range{along - reach, along + reach} + Range{over - spread, over + spread} * Range{slope, slope};
+}
+
+template <class Real>
 GradientOf<Real> Envelope<Real>::bound_gradient(const Bound& b, Point p) const {
   const Real dx = p.x - b.at.x, dy = p.y - b.at.y;
   if (b.type == BoundType::line) return {b.nx, b.ny};

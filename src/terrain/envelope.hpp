@@ -87,6 +87,8 @@ class Envelope {
   /// The same of a function that vanishes where a cylinder or sphere is as high as the other patch, and is smooth where it is upright:
   /// half of a^2 + b^2 - R^2, with a the distance from its axis and b the other patch's height over the axis, measured across it.
   Range upright_derivative_range(Index patch, Index other, const Box& box, Gradient direction) const;
+  /// The same of a cone, where the sphere is as high as the plane of the cone's circle.
+  Range upright_derivative_range(const Bound& cone, const Box& box, Gradient direction) const;
   /// Height at which a patch ends in a wall: of the points that a ball touches with a horizontal normal.
   Real rim_height(Index patch, Point p) const;
   Gradient rim_gradient(Index patch) const;

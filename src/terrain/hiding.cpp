@@ -266,14 +266,15 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
   if (absolute(c.gx * k.gy - c.gy * k.gx) > 0x1p-8) return false;
   const auto aside = [](const Patch& f, Point p) { return (p.y - f.at.y) * f.gx - (p.x - f.at.x) * f.gy; };
   const Real turn = c.gx * k.gx + c.gy * k.gy > 0 ? 1 : -1;
-  const Box& box = frame.box;
-  const std::array<Point, 4> corner = box.corners();
+  const Real farthest = 0x1p-4 * patches_.radius();
+  if (absolute(turn * aside(c, frame.mid) - aside(k, frame.mid)) > farthest) return false;
+  const std::array<Point, 4> corner = frame.box.corners();
   Real apart[4], widest = 0;
   for (int i = 0; i < 4; ++i) {
     apart[i] = turn * aside(c, corner[i]) - aside(k, corner[i]);
     widest = std::max(widest, absolute(apart[i]));
   }
-  if (widest > 0x1p-4 * patches_.radius()) return false;
+  if (widest > farthest) return false;
   for (const Bound& b : patches_.bounds(upper)) {
     if (b.type == BoundType::cone && !is_within(b, frame, least_up)) return false;
   }
@@ -529,7 +530,8 @@ class Envelope<Real>::Cover {
 template <class Real>
 bool Envelope<Real>::hidden_by_feature(Index lower, std::span<const Index> uppers, const BoxFrame& frame) const {
   for (const Index k : uppers) {
-    if (hidden_beside(lower, k, frame) || hidden_below_face(lower, k, frame) || lies_in(lower, k)) return true;
+    if (hidden_beside(lower, k, frame) || hidden_below_face(lower, k, frame)) return true;
+    if (!patches_.are_of_graph() && lies_in(lower, k)) return true;
     if (is_fine<Real> && hidden_by_axis(lower, k, frame.box)) return true;
   }
   return false;

@@ -112,6 +112,8 @@ class PatchSet {
 
   Real radius() const { return radius_; }
   Real square_radius() const { return square_radius_; }
+  /// True if no feature lies above or below another.
+  bool are_of_graph() const { return window_->is_graph(); }
   std::size_t size() const { return patches_.size(); }
   const Patch& operator[](Index i) const { return patches_[i]; }
   /// Bounding rectangle of the domain.
