@@ -171,7 +171,11 @@ class EdgeChecker {
 
   /// The true curve half-way between two neighbouring points: the same checks there, and how far it is from the chord.
   void between(const SubdivisionFile::Edge& edge, Vec3 a, Vec3 b, EdgeTallies& sum, double& sag, double& bulge) const {
-    if (!(length(b - a) > 64 * limit_)) return;
+    if (!(length(b - a) > 64 * limit_)) {
+      // Too short to be followed: where two surfaces are nearly tangent, the curve bends between points so close.
+      if (edge.curve != Curve::line) sag = std::max(sag, length(b - a) / 2);
+      return;
+    }
     const std::optional<Vec3> m = middle(edge, a, b);
     if (!m) {
       ++sum.loose;
