@@ -1,0 +1,110 @@
+// The tiles of a layer as meshes and lines in the scene, made when they are first wanted, a few milliseconds a frame.
+
+import * as THREE from 'three';
+import {LineSegments2} from 'three/addons/lines/LineSegments2.js';
+import {LineSegmentsGeometry} from 'three/addons/lines/LineSegmentsGeometry.js';
+import {leafGeometry, leafLines, middleOf, sampleGeometry} from './geometry.js';
+import {chooseTiles, distanceTo} from './lod.js';
+
+const MOST_KEPT = 900;       // meshes
+const FIRST_LINES = 5;       // pixels of a face at which its lines begin to show
+const ALL_LINES = 11;        // and at which all three kinds do
+
+export class TileSet {
+  constructor(layer, radius, material, lineMaterials) {
+    Object.assign(this, {layer, radius, material, lineMaterials});
+    this.group = new THREE.Group();
+    this.meshes = new Map();   // by index of the tile: { mesh, lines, arrays, used }
+    this.lineKinds = [true, true, true];
+    this.chosen = [];
+    this.until = 0;            // no new meshes after this time
+    this.clock = 0;
+  }
+
+  ready(tile) {
+    let made = this.meshes.get(tile.index);
+    if (!made) {
+      if (performance.now() > this.until) return false;
+      this.meshes.set(tile.index, made = this.make(tile));
+    }
+    made.used = this.clock;
+    return true;
+  }
+
+  make(tile) {
+    const data = this.layer.decoded(tile);
+    const arrays = tile.leaf ? leafGeometry(data, tile, this.radius) : sampleGeometry(data, tile);
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(arrays.position, 3));
+    geometry.setAttribute('normal', new THREE.BufferAttribute(arrays.normal, 4, true));
+    geometry.setAttribute('mix4', new THREE.BufferAttribute(arrays.mix, 4, true));
+    geometry.setIndex(new THREE.BufferAttribute(arrays.index, 1));
+    const mesh = new THREE.Mesh(geometry, this.material);
+    mesh.position.fromArray(middleOf(tile));
+    mesh.frustumCulled = false;  // chooseTiles has done that
+    mesh.matrixAutoUpdate = false;
+    mesh.updateMatrix();
+    return {mesh, arrays, lines: null, used: this.clock};
+  }
+
+  linesOf(tile, made) {
+    if (made.lines) return made.lines;
+    made.lines = leafLines(this.layer.decoded(tile), tile).map((points, kind) => {
+      if (points.length === 0) return null;
+      const geometry = new LineSegmentsGeometry();
+      geometry.setPositions(points);
+      const lines = new LineSegments2(geometry, this.lineMaterials[kind]);
+      lines.position.fromArray(middleOf(tile));
+      lines.frustumCulled = false;
+      lines.renderOrder = 1 + kind;
+      return lines;
+    });
+    return made.lines;
+  }
+
+  // view: as for chooseTiles, and lineBudget. Returns what is drawn.
+  update(view, milliseconds) {
+    ++this.clock;
+    this.until = performance.now() + milliseconds;
+    const {chosen, waiting} = chooseTiles(this.layer, {...view, ready: tile => this.ready(tile)});
+    this.chosen = chosen;
+    this.group.clear();
+    let triangles = 0, segments = 0;
+    for (const tile of chosen) {
+      const made = this.meshes.get(tile.index);
+      this.group.add(made.mesh);
+      triangles += made.arrays.index.length / 3;
+    }
+    if (this.lineMaterials) segments = this.addLines(view, chosen);
+    this.forget();
+    return {tiles: chosen.length, triangles, segments, waiting};
+  }
+
+  // Lines of the largest faces first.
+  addLines(view, chosen) {
+    let segments = 0;
+    const sized = chosen.filter(tile => tile.leaf).map(tile => {
+      const face = Math.sqrt((tile.high[0] - tile.low[0]) * (tile.high[1] - tile.low[1]) / tile.faces);
+      return {tile, size: view.pixels * face / Math.max(distanceTo(tile, view.eye), face)};
+    }).filter(({size}) => size > FIRST_LINES || view.allLines).sort((a, b) => b.size - a.size);
+    for (const {tile, size} of sized) {
+      if (segments > view.lineBudget) break;
+      this.linesOf(tile, this.meshes.get(tile.index)).forEach((lines, kind) => {
+        if (!lines || !this.lineKinds[kind] || (kind === 0 && size < ALL_LINES && !view.allLines)) return;
+        this.group.add(lines);
+        segments += lines.geometry.instanceCount;
+      });
+    }
+    return segments;
+  }
+
+  forget() {
+    if (this.meshes.size <= MOST_KEPT) return;
+    const old = [...this.meshes].filter(([, made]) => made.used < this.clock).sort((a, b) => a[1].used - b[1].used);
+    for (const [index, made] of old.slice(0, this.meshes.size - MOST_KEPT)) {
+      made.mesh.geometry.dispose();
+      for (const lines of made.lines ?? []) lines?.geometry.dispose();
+      this.meshes.delete(index);
+    }
+  }
+}
