@@ -13,7 +13,7 @@ namespace krepl::view {
 class HeightPyramid {
  public:
   /// Cells of a tile a side, the same at every level.
-  static constexpr int cells = 64;
+  static constexpr int cells = 32;
 
   /// Samples the triangles at the finest level; coarser ones have every second sample, and the mean share of the kinds about it.
   /// Time: that of the triangles' boxes in samples, and 4^levels * cells^2.

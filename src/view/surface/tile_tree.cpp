@@ -10,8 +10,8 @@ namespace krepl::view {
 namespace {
 
 constexpr int deepest = 16;
-/// 64 cells times 2^6: 4097 samples a side.
-constexpr int most_sampled_levels = 7;
+/// 32 cells times 2^7: 4097 samples a side.
+constexpr int most_sampled_levels = 8;
 
 std::uint64_t spread(std::uint32_t v) {
   std::uint64_t x = v;

@@ -13,7 +13,7 @@ namespace krepl::view {
 class TileTree {
  public:
   /// A leaf has no more, unless a single face has.
-  static constexpr std::size_t most_triangles = 6000;
+  static constexpr std::size_t most_triangles = 3000;
 
   explicit TileTree(const Shape& shape);
 

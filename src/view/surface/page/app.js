@@ -252,7 +252,7 @@ export class App {
     const told = contact => contact && {height: contact.height + origin[2],
       touches: contact.touches.map(t => ({feature: t.feature, kind: t.kind, at: t.at.map((v, i) => v + origin[i])}))};
     return {
-      page, app: this,
+      page,
       frame: () => ({count: scene.frames, stale: scene.stale || scene.drawn.waiting, ...scene.drawn}),
       contact: (x, y) => told(this.envelope.contact(...this.local(x, y))),
       ball: () => this.ball.rest && {x: this.ball.rest.x + origin[0], y: this.ball.rest.y + origin[1], ...told(this.ball.rest)},
@@ -282,10 +282,9 @@ export class App {
   async measure(count) {
     const times = [], {scene} = this, gl = scene.renderer.getContext(), pixel = new Uint8Array(4);
     for (let i = 0; i < count; ++i) {
-      await new Promise(done => requestAnimationFrame(done));
-      const begin = performance.now();
+      const begin = performance.now(), {frames} = scene;
       this.input.turn(Math.PI / 180, 0);
-      scene.frame();
+      while (scene.frames === frames) await new Promise(done => requestAnimationFrame(done));
       gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);  // waits until it is drawn
       times.push(performance.now() - begin);
     }

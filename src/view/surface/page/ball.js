@@ -1,9 +1,8 @@
 // The ball where it rests, what it touches, and the patch its centre is on.
 
 import * as THREE from 'three';
-import {LineSegments2} from 'three/addons/lines/LineSegments2.js';
-import {LineSegmentsGeometry} from 'three/addons/lines/LineSegmentsGeometry.js';
-import {glassMaterial, lineMaterial} from './materials.js';
+import {lineMaterial, Lines} from './lines.js';
+import {glassMaterial} from './materials.js';
 import {entryOf, hitTriangles, refine} from './picking.js';
 import {middleOf} from './geometry.js';
 
@@ -31,9 +30,7 @@ export class Ball {
   }
 
   lines(width, order) {
-    const lines = new LineSegments2(new LineSegmentsGeometry(), lineMaterial(width, [], always));
-    lines.frustumCulled = false;
-    lines.renderOrder = order;
+    const lines = new Lines(lineMaterial(width, [], always), order);
     this.inner.add(lines);
     return lines;
   }
@@ -69,16 +66,12 @@ export class Ball {
     this.group.visible = true;
     this.inner.position.set(...center);
     const at = contact.touches.map(t => relative(t.at));
-    this.spokes.geometry.dispose();
-    this.spokes.geometry = new LineSegmentsGeometry().setPositions(at.flatMap(p => [0, 0, 0, ...p]));
+    this.spokes.replace(at.flatMap(p => [0, 0, 0, ...p]));
     this.dots.geometry.dispose();
     this.dots.geometry = new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), ...at.map(p => new THREE.Vector3(...p))]);
-    const sides = contact.touches.flatMap(t => outlineOf(t.points).map(relative)).flat();
-    this.outline.visible = sides.length > 0;
-    this.outline.geometry.dispose();
-    if (sides.length > 0) this.outline.geometry = new LineSegmentsGeometry().setPositions(sides);
+    this.outline.replace(contact.touches.flatMap(t => outlineOf(t.points).map(relative)).flat());
     this.showPatch(contact.touches[0]);
-    this.scene.request();
+    this.scene.request(true);
     return this.rest;
   }
 

@@ -1,9 +1,7 @@
 // The cut: a vertical plane that can be moved and turned, and the curves in it.
 
 import * as THREE from 'three';
-import {LineSegments2} from 'three/addons/lines/LineSegments2.js';
-import {LineSegmentsGeometry} from 'three/addons/lines/LineSegmentsGeometry.js';
-import {lineMaterial} from './materials.js';
+import {lineMaterial, Lines} from './lines.js';
 import {lineOf, rangeOver, surfaceSection} from './section.js';
 import {groundSection} from './section_ground.js';
 
@@ -26,9 +24,7 @@ export class Cut {
   }
 
   lines(width) {
-    const lines = new LineSegments2(new LineSegmentsGeometry(), lineMaterial(width, [], {polygonOffsetFactor: -2, polygonOffsetUnits: -16}));
-    lines.frustumCulled = false;
-    lines.renderOrder = 6;
+    const lines = new Lines(lineMaterial(width, [], {polygonOffsetFactor: -2, polygonOffsetUnits: -16}), 6);
     this.group.add(lines);
     return lines;
   }
@@ -94,15 +90,9 @@ export class Cut {
     for (const {kind, points} of curves.surface)
       for (let i = 0; i + 3 < points.length; i += 2)
         kinds[kind].push(...place(points[i], points[i + 1]), ...place(points[i + 2], points[i + 3]));
-    kinds.forEach((points, kind) => replace(this.kindLines[kind], points));
-    replace(this.groundLines, curves.ground.flatMap(([s0, z0, s1, z1]) => [...place(s0, z0), ...place(s1, z1)]));
+    kinds.forEach((points, kind) => this.kindLines[kind].replace(points));
+    this.groundLines.replace(curves.ground.flatMap(([s0, z0, s1, z1]) => [...place(s0, z0), ...place(s1, z1)]));
   }
-}
-
-function replace(lines, points) {
-  lines.geometry.dispose();
-  lines.visible = points.length > 0;
-  if (points.length > 0) lines.geometry = new LineSegmentsGeometry().setPositions(points);
 }
 
 // A kind's colour, dark enough for a line.

@@ -85,7 +85,7 @@ export function decodeLeaf(packed, box, exact) {
   return leaf;
 }
 
-export const CELLS = 64;         // of a tile of samples, a side
+export const CELLS = 32;         // of a tile of samples, a side
 export const ROW = CELLS + 3;    // samples a side: one cell more all around
 
 export function decodeSamples(packed) {

@@ -3,7 +3,7 @@
 import {bytesOf, decodeLeaf, decodeSamples, CELLS} from './decode.js';
 
 const COLUMNS = 12;
-const MOST_KEPT = 1200;  // decoded tiles
+const MOST_KEPT = 3000;  // decoded tiles
 
 export class Layer {
   // text(id): the base64 text of an array of the page.

@@ -1,6 +1,7 @@
 // Which tiles are drawn: those at which a cell is about a pixel or two wide, within a budget of triangles.
 
-export const TRIANGLES_A_TILE = 6000;
+// About what a tile has; two a cell, and as many in a leaf.
+export const TRIANGLES_A_TILE = 2300;
 
 // Distance from a point to a box, 0 inside.
 export function distanceTo(tile, point) {

@@ -1,52 +1,59 @@
 // How things are lit: own shaders, since software rendering is slow with three's.
 
 import * as THREE from 'three';
-import {LineMaterial} from 'three/addons/lines/LineMaterial.js';
 
 const SUN = new THREE.Vector3(-0.55, 0.5, 0.78).normalize();  // from the north-west, as maps have it
 
+// Light and paint. Patches are lit at their vertices, of which curved ones have many; the ground by the slope of each triangle.
+const LIGHT = `
+  uniform vec3 planePaint, cylinderPaint, spherePaint, wallPaint, plainPaint, sun;
+  uniform float relief, kinds;
+  vec3 lit(vec3 share, vec3 n, vec3 toEye) {
+    vec3 paint = planePaint * (1.0 - share.r - share.g - share.b) + cylinderPaint * share.r + spherePaint * share.g
+      + wallPaint * share.b;
+    paint = mix(plainPaint, paint, kinds);
+    // Flat country is lit as if it were steeper.
+    n = normalize(vec3(n.xy * relief, n.z));
+    float diffuse = max(dot(n, sun), 0.0), sky = 0.5 + 0.5 * n.z;
+    float shine = pow(max(dot(n, normalize(sun + toEye)), 0.0), 32.0);
+    return paint * (0.30 + 0.22 * sky + 0.62 * diffuse) + 0.07 * shine;
+  }`;
+
 const VERTEX = `
   attribute vec4 mix4;
-  varying vec4 vMix;
-  varying vec3 vNormal;
+  uniform mat3 toWorld;
+  varying vec3 vColor;
   varying vec3 vView;
+  ${LIGHT}
   #include <clipping_planes_pars_vertex>
   void main() {
-    vMix = mix4;
-    vNormal = normal;
     vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+  #ifdef FACETS
     vView = mvPosition.xyz;
+  #else
+    vColor = lit(mix4.rgb, normal, normalize(toWorld * -mvPosition.xyz));
+  #endif
     gl_Position = projectionMatrix * mvPosition;
     #include <clipping_planes_vertex>
   }`;
 
 const FRAGMENT = `
-  uniform vec3 planePaint, cylinderPaint, spherePaint, wallPaint, plainPaint, sun;
-  uniform float relief, opacity, kinds;
+  uniform float opacity;
   uniform mat3 toWorld;
-  varying vec4 vMix;
-  varying vec3 vNormal;
+  varying vec3 vColor;
   varying vec3 vView;
+  #ifdef FACETS
+  ${LIGHT}
+  #endif
   #include <clipping_planes_pars_fragment>
   void main() {
     #include <clipping_planes_fragment>
-    vec3 share = vMix.rgb;
-    vec3 paint = planePaint * (1.0 - share.r - share.g - share.b) + cylinderPaint * share.r + spherePaint * share.g
-      + wallPaint * share.b;
-    paint = mix(plainPaint, paint, kinds);
   #ifdef FACETS
     vec3 n = toWorld * normalize(cross(dFdx(vView), dFdy(vView)));
+    gl_FragColor = vec4(lit(vec3(0.0), n, normalize(toWorld * -vView)), opacity);
   #else
-    vec3 n = vNormal;
+    gl_FragColor = vec4(vColor, opacity);
   #endif
-    // Flat country is lit as if it were steeper.
-    n = normalize(vec3(n.xy * relief, n.z));
-    float diffuse = max(dot(n, sun), 0.0);
-    float sky = 0.5 + 0.5 * n.z;
-    vec3 toEye = normalize(toWorld * -vView);
-    float shine = pow(max(dot(n, normalize(sun + toEye)), 0.0), 32.0);
-    vec3 color = paint * (0.30 + 0.22 * sky + 0.62 * diffuse) + 0.07 * shine;
-    gl_FragColor = vec4(color, opacity);
   }`;
 
 const color = text => new THREE.Color(text);
@@ -73,11 +80,6 @@ export function setPaints(material, paints) {
 export function setOpacity(material, opacity) {
   material.uniforms.opacity.value = opacity;
   material.transparent = opacity < 1;
-}
-
-export function lineMaterial(width, planes, options = {}) {
-  return new LineMaterial({linewidth: width, color: 0, clippingPlanes: planes, polygonOffset: true, polygonOffsetFactor: -1,
-    polygonOffsetUnits: -4, ...options});
 }
 
 // A translucent body that is brighter at its outline.

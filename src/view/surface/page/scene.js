@@ -3,15 +3,15 @@
 import * as THREE from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import {COLORS} from './kinds.js';
-import {lineMaterial, setOpacity, setPaints, surfaceMaterial} from './materials.js';
+import {lineMaterial, setWindow} from './lines.js';
+import {setOpacity, setPaints, surfaceMaterial} from './materials.js';
+import {Pace} from './pace.js';
 import {TileSet} from './tiles.js';
 
 const FIELD_OF_VIEW = 35;
-const AT_REST = {detail: 1.3, budget: 900000, lineBudget: 120000, milliseconds: 25};
-const MOVING = {detail: 2.6, budget: 260000, lineBudget: 25000, milliseconds: 8};
 const REST_AFTER = 180;       // milliseconds
-const SLOW = 28;              // milliseconds of a picture above which a moving one is made smaller
-const SMALLEST = 0.5;         // of the pixels a side
+const LINE_WIDTHS = [1.1, 1.8, 2.2];            // pixels of seams, valleys, rims
+const FADING = [0.12, 0.25, 0.4, 0.6, 0.8, 1];  // lines of small faces are thin and pale, or nothing else would be seen
 
 THREE.ColorManagement.enabled = false;
 
@@ -29,7 +29,8 @@ export class Scene {
     this.noPlanes = [];
     this.surfaceMaterial = surfaceMaterial(this.noPlanes);
     this.groundMaterial = surfaceMaterial(this.noPlanes, true);
-    this.lineMaterials = [lineMaterial(1.1, this.noPlanes), lineMaterial(1.7, this.noPlanes), lineMaterial(2.2, this.noPlanes)];
+    this.lineMaterials = LINE_WIDTHS.map(width => FADING.map(share =>
+      lineMaterial(width * (0.5 + 0.5 * share), this.noPlanes, {opacity: share})));
     this.sets = layers.map(layer => layer.role === 'surface'
       ? new TileSet(layer, page.radius, this.surfaceMaterial, this.lineMaterials)
       : new TileSet(layer, 0, this.groundMaterial, null));
@@ -40,8 +41,8 @@ export class Scene {
     this.opacity = 1;
     this.drawn = {tiles: 0, triangles: 0, segments: 0, waiting: true};
     this.frames = 0;
-    this.cost = 0;
-    this.scale = 1;             // of the pixels a side while moving
+    this.pace = new Pace();
+    this.scale = 1;             // of the pixels a side
     this.stale = true;
     this.listeners = [];        // called before each picture
     this.measure();
@@ -70,7 +71,7 @@ export class Scene {
     const c = this.colors, {ground} = c;
     setPaints(this.surfaceMaterial, {plane: c.plane, cylinder: c.cylinder, sphere: c.sphere, wall: c.wall, plain: c.plain});
     setPaints(this.groundMaterial, {plane: ground, cylinder: ground, sphere: ground, wall: ground, plain: ground});
-    [c.seam, c.valley, c.rim].forEach((color, kind) => this.lineMaterials[kind].color.set(color));
+    [c.seam, c.valley, c.rim].forEach((color, kind) => this.lineMaterials[kind].forEach(material => material.color.set(color)));
     this.scene.background = new THREE.Color(c.paper);
     this.request();
   }
@@ -80,6 +81,7 @@ export class Scene {
     this.width = Math.max(1, canvas.clientWidth || window.innerWidth);
     this.height = Math.max(1, canvas.clientHeight || window.innerHeight);
     this.camera.aspect = this.width / this.height;
+    setWindow(this.width, this.height);
     this.setPixels(1);
     this.request();
   }
@@ -132,30 +134,26 @@ export class Scene {
 
   // One picture, and another one later if this one is not the best there is.
   frame() {
-    const begin = performance.now(), moving = this.moving;
+    const now = performance.now(), {moving} = this, waited = this.drawn.waiting;
     this.stale = false;
-    this.setPixelsFor(moving);
+    if (moving && this.lastMoving) this.pace.took(now - this.lastMoving);
+    this.lastMoving = moving ? now : 0;
+    // Software rendering cannot fill a large window often enough.
+    const scale = moving ? this.pace.scale : 1;
+    if (scale !== this.scale) this.setPixels(scale);
     for (const listener of this.listeners) listener(moving);
-    this.draw(moving ? MOVING : AT_REST);
+    const {resting} = this.pace;
+    // Tiles first, all lines when they are there.
+    if (this.drawn.waiting) resting.lineBudget = this.pace.moving.lineBudget;
+    this.draw(moving ? this.pace.moving : resting);
     ++this.frames;
     if (moving) {
-      this.cost = performance.now() - begin;
       clearTimeout(this.rest);
       this.rest = setTimeout(() => this.request(), REST_AFTER + 20);
       this.stale = true;
-    } else if (this.drawn.waiting) {
+    } else if (this.drawn.waiting || waited) {
       this.request();
     }
-  }
-
-  // Software rendering cannot fill a large window often enough.
-  setPixelsFor(moving) {
-    let scale = 1;
-    if (moving) {
-      scale = this.scale;
-      if (this.cost > SLOW) scale = Math.max(SMALLEST, scale * 0.8);
-    }
-    if (scale !== this.scale) this.setPixels(scale);
   }
 
   draw(quality) {
@@ -166,7 +164,7 @@ export class Scene {
     const frustum = new THREE.Frustum().setFromProjectionMatrix(
       new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
     const box = new THREE.Box3(), {x, y, z} = camera.position;
-    const view = {...quality, eye: [x, y, z], pixels: this.pixels(), allLines: false,
+    const view = {...quality, eye: [x, y, z], pixels: this.pixels(),
       visible: tile => frustum.intersectsBox(box.set(box.min.fromArray(tile.low), box.max.fromArray(tile.high)))};
     const toWorld = new THREE.Matrix3().setFromMatrix4(camera.matrixWorld);
     for (const material of [this.surfaceMaterial, this.groundMaterial]) material.uniforms.toWorld.value.copy(toWorld);
@@ -215,7 +213,7 @@ export class Scene {
     this.cutting = cut !== null;
     this.cut = cut;
     const planes = cut ? [this.cutPlane] : this.noPlanes, ground = cut?.ground ? [this.cutPlane] : this.noPlanes;
-    for (const material of [this.surfaceMaterial, ...this.lineMaterials]) material.clippingPlanes = planes;
+    for (const material of [this.surfaceMaterial, ...this.lineMaterials.flat()]) material.clippingPlanes = planes;
     this.groundMaterial.clippingPlanes = ground;
     this.request();
   }

@@ -116,6 +116,10 @@ export class SectionPanel {
       g.fillText(text(k * steepStep, steepStep), MARGIN.left - 6, y);
     }
     g.stroke();
+    g.textAlign = 'left';
+    g.textBaseline = 'top';
+    const about = 'Section at true scale: height over the distance along the cut' + (this.page.unit ? `, ${this.page.unit}` : '');
+    g.fillText(about, MARGIN.left + 8, MARGIN.top + 2);
   }
 
   drawGround(g, colors) {

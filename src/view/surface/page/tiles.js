@@ -1,16 +1,16 @@
 // The tiles of a layer as meshes and lines in the scene, made when they are first wanted, a few milliseconds a frame.
 
 import * as THREE from 'three';
-import {LineSegments2} from 'three/addons/lines/LineSegments2.js';
-import {LineSegmentsGeometry} from 'three/addons/lines/LineSegmentsGeometry.js';
 import {leafGeometry, leafLines, middleOf, sampleGeometry} from './geometry.js';
+import {Lines} from './lines.js';
 import {chooseTiles, distanceTo} from './lod.js';
 
-const MOST_KEPT = 900;       // meshes
-const FIRST_LINES = 5;       // pixels of a face at which its lines begin to show
-const ALL_LINES = 11;        // and at which all three kinds do
+const MOST_KEPT = 2500;      // meshes
+const FIRST_LINES = 6;       // pixels of a face at which its lines begin to show
+const FULL_LINES = 24;       // and at which they are as strong as they get
 
 export class TileSet {
+  // lineMaterials: by kind of line, from faint to strong.
   constructor(layer, radius, material, lineMaterials) {
     Object.assign(this, {layer, radius, material, lineMaterials});
     this.group = new THREE.Group();
@@ -51,12 +51,9 @@ export class TileSet {
     if (made.lines) return made.lines;
     made.lines = leafLines(this.layer.decoded(tile), tile).map((points, kind) => {
       if (points.length === 0) return null;
-      const geometry = new LineSegmentsGeometry();
-      geometry.setPositions(points);
-      const lines = new LineSegments2(geometry, this.lineMaterials[kind]);
+      const lines = new Lines(this.lineMaterials[kind][0], 1 + kind);
+      lines.replace(points);
       lines.position.fromArray(middleOf(tile));
-      lines.frustumCulled = false;
-      lines.renderOrder = 1 + kind;
       return lines;
     });
     return made.lines;
@@ -86,13 +83,15 @@ export class TileSet {
     const sized = chosen.filter(tile => tile.leaf).map(tile => {
       const face = Math.sqrt((tile.high[0] - tile.low[0]) * (tile.high[1] - tile.low[1]) / tile.faces);
       return {tile, size: view.pixels * face / Math.max(distanceTo(tile, view.eye), face)};
-    }).filter(({size}) => size > FIRST_LINES || view.allLines).sort((a, b) => b.size - a.size);
+    }).filter(({size}) => size > FIRST_LINES).sort((a, b) => b.size - a.size);
     for (const {tile, size} of sized) {
       if (segments > view.lineBudget) break;
       this.linesOf(tile, this.meshes.get(tile.index)).forEach((lines, kind) => {
-        if (!lines || !this.lineKinds[kind] || (kind === 0 && size < ALL_LINES && !view.allLines)) return;
+        if (!lines || !this.lineKinds[kind]) return;
+        const materials = this.lineMaterials[kind], share = Math.min(1, (size - FIRST_LINES) / (FULL_LINES - FIRST_LINES));
+        lines.material = materials[Math.round(share * (materials.length - 1))];
         this.group.add(lines);
-        segments += lines.geometry.instanceCount;
+        segments += lines.geometry.index.count / 6;
       });
     }
     return segments;
