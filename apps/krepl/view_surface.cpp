@@ -16,8 +16,8 @@ namespace krepl::app {
 
 namespace {
 
-/// A deviation of a pixel where the radius has 300.
-constexpr double pixels_of_radius = 300;
+/// A deviation of a pixel where the radius has 200.
+constexpr double pixels_of_radius = 200;
 
 Result<input::SubdivisionGeoPackage> read_surface(const std::string& path, const Context& context) {
   if (input::format_extension(path) == "gpkg") return input::read_subdivision_gpkg(path, context);

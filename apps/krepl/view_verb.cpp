@@ -106,7 +106,7 @@ void add_view_verb(CLI::App& program, Session& session) {
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   verb->add_option("--max-error", options->max_error,
-                   "Surface: largest distance of the triangles that are drawn from it (default: radius / 300)")
+                   "Surface: largest distance of the triangles that are drawn from it (default: radius / 200)")
       ->type_name("LENGTH");
   verb->add_option("--title", options->title, "Title of the page (default: name of the file)")->type_name("TEXT");
   session.add_common_options(*verb);

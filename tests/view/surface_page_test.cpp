@@ -81,7 +81,10 @@ void expect_on_patches(const Shape& shape, double max_error) {
         const double off = std::abs(patch.height(p.x, p.y) - p.z) * patch.normal(p).z;
         EXPECT_LT(off, 1e-7) << "face " << f;
       }
-      EXPECT_LE(patch.deviation(corners[0], corners[1], corners[2]), 1.01 * max_error) << "face " << f;
+      EXPECT_LE(patch.deviation(corners[0], corners[1], corners[2]), 1.01 * max_error)
+          << "face " << f << " kind " << int(shape.faces[f].kind) << " triangle " << t - shape.faces[f].first_triangle << " of "
+          << shape.triangles_end(f) - shape.faces[f].first_triangle << " (" << corners[0].x << " " << corners[0].y << " " << corners[0].z << ") ("
+          << corners[1].x << " " << corners[1].y << " " << corners[1].z << ") (" << corners[2].x << " " << corners[2].y << " " << corners[2].z << ") " << shape.radius;
     }
   }
 }
@@ -161,7 +164,7 @@ TEST(SurfaceShape, FaultsInFilesAreNamed) {
     ASSERT_FALSE(shape);
     EXPECT_NE(shape.error().text().find(what), std::string::npos) << shape.error().text();
   };
-  fails("half_edges[3]", [](auto& f) { f.half_edges[3].origin = 1000000; });
+  fails("half_edges[3]", [](auto& f) { f.half_edges[3].face = 1000000; });
   fails("half_edges[4]", [](auto& f) { f.half_edges[4].next = f.half_edges[5].next; });
   fails("not two half-edges", [](auto& f) { f.half_edges.pop_back(); });
   fails("faces[2]", [](auto& f) { f.faces[2].outer = f.faces[3].outer; });

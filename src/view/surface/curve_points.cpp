@@ -80,7 +80,10 @@ Point3 valley_point(Point3 a, Point3 b, const SurfacePatch& left, const SurfaceP
     const double x = middle.x + s * across_x, y = middle.y + s * across_y;
     return left.height(x, y) - right.height(x, y);
   };
-  double low = -1, high = 1;
+  // Near by first: farther off the two patches may meet once more.
+  double high = 1.0 / 64;
+  while (high < 1 && gap(-high) * gap(high) > 0) high *= 2;
+  double low = -high;
   const bool rises = gap(high) > gap(low);
   if (gap(low) * gap(high) > 0) return middle;
   for (int i = 0; i < root_steps; ++i) {

@@ -5,11 +5,10 @@
 #include <optional>
 
 #include "model/terrain_window.hpp"
-#include "output/patch_mesh.hpp"
-#include "output/polygon_triangulation.hpp"
 #include "output/surface_patch.hpp"
 #include "view/surface/curve_points.hpp"
 #include "view/surface/links.hpp"
+#include "view/surface/patch_triangles.hpp"
 
 namespace krepl::view {
 
@@ -20,6 +19,8 @@ using Index = Shape::Index;
 using output::SurfacePatch;
 
 constexpr std::size_t cancel_interval = 4096;
+/// Of the largest deviation: triangles beside a border deviate more than its chords.
+constexpr double border_share = 0.5;
 
 Point3 minus(Point3 a, Point3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
@@ -98,7 +99,7 @@ void ShapeBuilder::place_edges() {
         if (edge.feature[std::size_t(i)] != File::none) side[i] = patch_of(edge.feature[std::size_t(i)]);
     const bool both = side[0] && side[1];
     const std::vector<Point3> points =
-        curve_points(given, edge.curve, both ? &*side[0] : nullptr, both ? &*side[1] : nullptr, max_error_);
+        curve_points(given, edge.curve, both ? &*side[0] : nullptr, both ? &*side[1] : nullptr, border_share * max_error_);
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
       edge_vertex_.push_back(Index(shape_.vertices.size()));
       shape_.vertices.push_back(points[i]);
@@ -177,7 +178,6 @@ void ShapeBuilder::add_face(Index number) {
   starts.insert(starts.end(), file_.inner.begin() + std::ptrdiff_t(face.first_inner),
                 file_.inner.begin() + std::ptrdiff_t(file_.inner_end(number)));
   std::vector<std::vector<Index>> loops;
-  std::vector<Point> places;
   std::vector<Point3> points;
   std::vector<Index> global;
   for (const Index start : starts) {
@@ -186,24 +186,17 @@ void ShapeBuilder::add_face(Index number) {
     for (const Index v : chain) {
       local.push_back(Index(global.size()));
       global.push_back(v);
-      const Point3 p = shape_.vertices[v];
-      points.push_back(p);
-      places.push_back({p.x, p.y});
+      points.push_back(shape_.vertices[v]);
     }
   }
   face_number_[number] = Index(shape_.faces.size());
   shape_.faces.push_back({Shape::FaceKind(shape_.features[face.feature].count - 1), face.feature, shape_.triangles.size()});
-  const output::PolygonTriangulation polygon(places, loops);
-  output::PatchMesh mesh(patch, std::move(points), polygon.triangles());
-  mesh.refine(max_error_);
-  for (std::size_t i = global.size(); i < mesh.points().size(); ++i) {
+  const PatchTriangles mesh = patch_triangles(patch, std::move(points), loops, max_error_);
+  for (std::size_t i = global.size(); i < mesh.points.size(); ++i) {
     global.push_back(Index(shape_.vertices.size()));
-    shape_.vertices.push_back(mesh.points()[i]);
+    shape_.vertices.push_back(mesh.points[i]);
   }
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const auto c = mesh.triangle(t);
-    shape_.triangles.push_back({global[c[0]], global[c[1]], global[c[2]]});
-  }
+  for (const auto& c : mesh.triangles) shape_.triangles.push_back({global[c[0]], global[c[1]], global[c[2]]});
   if (foot_.empty()) return;
   shape_.faces.push_back({Shape::FaceKind::wall, Shape::none, shape_.triangles.size()});
   for (const Index start : starts) {

@@ -9,6 +9,9 @@ const MOST_KEPT = 2500;      // meshes
 const FIRST_LINES = 6;       // pixels of a face at which its lines begin to show
 const FULL_LINES = 24;       // and at which they are as strong as they get
 
+// Side of a square as large as the faces of a tile are on average.
+function sizeOfFaces(tile) { return Math.sqrt((tile.high[0] - tile.low[0]) * (tile.high[1] - tile.low[1]) / tile.faces); }
+
 export class TileSet {
   // lineMaterials: by kind of line, from faint to strong.
   constructor(layer, radius, material, lineMaterials) {
@@ -17,6 +20,7 @@ export class TileSet {
     this.meshes = new Map();   // by index of the tile: { mesh, lines, arrays, used }
     this.lineKinds = [true, true, true];
     this.chosen = [];
+    this.meanFace = sizeOfFaces(layer.tiles[0]);
     this.until = 0;            // no new meshes after this time
     this.clock = 0;
   }
@@ -81,7 +85,8 @@ export class TileSet {
   addLines(view, chosen) {
     let segments = 0;
     const sized = chosen.filter(tile => tile.leaf).map(tile => {
-      const face = Math.sqrt((tile.high[0] - tile.low[0]) * (tile.high[1] - tile.low[1]) / tile.faces);
+      // Between the tile's own and the mean one, so that neighbours do not differ too much.
+      const face = Math.sqrt(sizeOfFaces(tile) * this.meanFace);
       return {tile, size: view.pixels * face / Math.max(distanceTo(tile, view.eye), face)};
     }).filter(({size}) => size > FIRST_LINES).sort((a, b) => b.size - a.size);
     for (const {tile, size} of sized) {
