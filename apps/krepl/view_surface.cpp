@@ -1,6 +1,7 @@
 // krepl view of surfaces.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "input/geometry_source.hpp"
@@ -48,6 +49,20 @@ Result<input::TerrainFile> read_input(const ViewOptions& options, const std::str
   return file;
 }
 
+/// Whether two shapes have nothing in common, seen from above.
+bool lie_apart(const view::Shape& a, const view::Shape& b) {
+  const auto range = [](const view::Shape& shape, double Point3::*axis) {
+    const auto [low, high] = std::minmax_element(shape.vertices.begin(), shape.vertices.end(),
+                                                 [&](const Point3& p, const Point3& q) { return p.*axis < q.*axis; });
+    return std::pair{(*low).*axis, (*high).*axis};
+  };
+  for (double Point3::*axis : {&Point3::x, &Point3::y}) {
+    const auto p = range(a, axis), q = range(b, axis);
+    if (p.first > q.second || q.first > p.second) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool is_surface(const std::string& path) {
@@ -86,6 +101,8 @@ int run_surface_view(const ViewOptions& options, Session& session) {
     tell_terrain(*terrain, options.input.path, lap(), session);
     if (page.crs.empty()) page.crs = terrain->crs_name;
     page.terrain = view::terrain_shape(*terrain->terrain, page.surface.origin);
+    if (lie_apart(page.surface, *page.terrain))
+      session.note(options.input.path, "note: lies beside the surface; give --to-crs as for krepl terrain, if it was given there");
   }
   page.unit = unit_of(page.crs);
   const auto html = view::render_surface_page(page, session.context("page"));

@@ -25,7 +25,7 @@ export class Pace {
   get moving() { return {detail: 2.4, budget: this.budget, lineBudget: this.budget / 8, milliseconds: 8}; }
   // Nobody waits for the next picture.
   get resting() {
-    return {detail: 1.8, budget: Math.min(MOST, Math.max(250000, 6 * this.budget)), lineBudget: Math.max(60000, this.budget),
+    return {detail: 1.8, budget: Math.min(MOST, Math.max(400000, 6 * this.budget)), lineBudget: Math.max(60000, this.budget),
       milliseconds: 150};
   }
 }

@@ -119,7 +119,7 @@ export class SectionPanel {
     g.textAlign = 'left';
     g.textBaseline = 'top';
     const about = 'Section at true scale: height over the distance along the cut' + (this.page.unit ? `, ${this.page.unit}` : '');
-    g.fillText(about, MARGIN.left + 8, MARGIN.top + 2);
+    g.fillText(about, MARGIN.left + 8, MARGIN.top + 2, Math.max(10, this.width - MARGIN.left - MARGIN.right - 16));
   }
 
   drawGround(g, colors) {
