@@ -43,8 +43,9 @@ int write_page(const ViewOptions& options, const std::string& html, const std::s
   if (!stream) return session.fail(name, stream.error());
   stream->write(html);
   if (Status written = stream->finish(); !written) return session.fail(name, written.error());
-  session.summary(fmt::format("{}: {}, {:.1f} MB; open it in a browser", name, contents, static_cast<double>(html.size()) / 1e6),
-                  options.output == "-");
+  session.summary(
+      fmt::format("{}: {}, {:.1f} MB; open it in a browser", name, contents, static_cast<double>(html.size()) / 1e6),
+      options.output == "-");
   return 0;
 }
 

@@ -73,7 +73,8 @@ bool is_surface(const std::string& path) {
 
 int run_surface_view(const ViewOptions& options, Session& session) {
   if (!options.input.layer.empty() || !options.input.where.empty())
-    return session.fail("", {ErrorCode::usage, "--layer and --where belong to zones", "", "a terrain has no features to choose"});
+    return session.fail(
+        "", {ErrorCode::usage, "--layer and --where belong to zones", "", "a terrain has no features to choose"});
   Stopwatch watch;
   const auto lap = [&watch] { return std::exchange(watch, Stopwatch()).seconds(); };
   auto result = read_surface(options.result, session.context("reading"));
@@ -102,15 +103,16 @@ int run_surface_view(const ViewOptions& options, Session& session) {
     if (page.crs.empty()) page.crs = terrain->crs_name;
     page.terrain = view::terrain_shape(*terrain->terrain, page.surface.origin);
     if (lie_apart(page.surface, *page.terrain))
-      session.note(options.input.path, "note: lies beside the surface; give --to-crs as for krepl terrain, if it was given there");
+      session.note(options.input.path,
+                   "note: lies beside the surface; give --to-crs as for krepl terrain, if it was given there");
   }
   page.unit = unit_of(page.crs);
   const auto html = view::render_surface_page(page, session.context("page"));
   if (!html) return session.fail(options.result, html.error());
   session.finish_progress();
   session.detail(fmt::format("page       {:.3f} s: {} tiles", lap(), html->tiles));
-  return write_page(options, html->html, fmt::format("{} faces, {} triangles in {} tiles", faces - 1, triangles, html->tiles),
-                    session);
+  return write_page(options, html->html,
+                    fmt::format("{} faces, {} triangles in {} tiles", faces - 1, triangles, html->tiles), session);
 }
 
 }  // namespace krepl::app

@@ -72,14 +72,15 @@ int run_view(const ViewOptions& options, Session& session) {
   }
   std::size_t pieces = 0;
   for (const view::Layer& layer : page->layers) pieces += layer.role == "input" ? 0 : layer.kind.size();
-  return write_page(options, view::render_page(*page), fmt::format("{} layers, {} pieces", page->layers.size(), pieces), session);
+  return write_page(options, view::render_page(*page), fmt::format("{} layers, {} pieces", page->layers.size(), pieces),
+                    session);
 }
 
 int run_any_view(const ViewOptions& options, Session& session) {
   if (is_surface(options.result)) return run_surface_view(options, session);
   if (options.has_surface_options()) {
-    return session.fail("", {ErrorCode::usage, "--max-error, --crs, --z-scale, --split and --band belong to surfaces", "",
-                             "give a subdivision that krepl terrain wrote, .json or .gpkg"});
+    return session.fail("", {ErrorCode::usage, "--max-error, --crs, --z-scale, --split and --band belong to surfaces",
+                             "", "give a subdivision that krepl terrain wrote, .json or .gpkg"});
   }
   return run_view(options, session);
 }
@@ -89,16 +90,20 @@ int run_any_view(const ViewOptions& options, Session& session) {
 void add_view_verb(CLI::App& program, Session& session) {
   auto options = std::make_shared<ViewOptions>();
   CLI::App* verb = program.add_subcommand("view", "One self-contained web page that shows a result");
-  verb->add_option("RESULT", options->result, "A zone in any vector format, a profile (.csv), or a surface (.json, .gpkg)")->required();
+  verb->add_option("RESULT", options->result,
+                   "A zone in any vector format, a profile (.csv), or a surface (.json, .gpkg)")
+      ->required();
   verb->add_option("-o,--output", options->output, "The page to write, or -")->required()->type_name("PAGE.html");
-  verb->add_option("--input", options->input.path, "Show the input too: the lines, or the terrain of a profile or surface")
+  verb->add_option("--input", options->input.path,
+                   "Show the input too: the lines, or the terrain of a profile or surface")
       ->type_name("IN");
   verb->add_option("--layer", options->input.layer, "Layer of the input to read")->type_name("NAME");
   verb->add_option("--where", options->input.where, "Features of the input to read, as SQL")->type_name("CONDITION");
   verb->add_option("--to-crs", options->input.to_crs,
                    "Plane coordinate system to project the input to (default: the result's)")
       ->type_name("EPSG:n|auto");
-  verb->add_option("--crs", options->terrain.request.crs, "Surface: coordinate system of the input, in place of what it says")
+  verb->add_option("--crs", options->terrain.request.crs,
+                   "Surface: coordinate system of the input, in place of what it says")
       ->type_name("EPSG:n");
   verb->add_option("--z-scale", options->terrain.z_scale, "Surface: as given to krepl terrain")->type_name("FACTOR");
   verb->add_option("--split", options->terrain.split, "Surface: as given to krepl terrain")->type_name("NAME");

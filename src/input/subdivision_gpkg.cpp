@@ -97,7 +97,8 @@ class GeoPackageReader {
   Status vertex(const Row& row) {
     if (row.index("vertex") != file_.vertices.size()) return fault("vertices are not numbered from 0 on", row.place());
     const OGRGeometry* at = row.geometry();
-    if (at == nullptr || wkbFlatten(at->getGeometryType()) != wkbPoint) return fault("a vertex without a point", row.place());
+    if (at == nullptr || wkbFlatten(at->getGeometryType()) != wkbPoint)
+      return fault("a vertex without a point", row.place());
     file_.vertices.push_back({at->toPoint()->getX(), at->toPoint()->getY(), at->toPoint()->getZ()});
     return std::monostate{};
   }
@@ -120,10 +121,12 @@ class GeoPackageReader {
         !word(row.text("curve"), {"line", "circle", "ellipse", "quartic"}, edge.curve))
       return fault("an edge without kind or curve", row.place());
     const OGRGeometry* line = row.geometry();
-    if (line == nullptr || wkbFlatten(line->getGeometryType()) != wkbLineString || line->toLineString()->getNumPoints() < 2)
+    if (line == nullptr || wkbFlatten(line->getGeometryType()) != wkbLineString ||
+        line->toLineString()->getNumPoints() < 2)
       return fault("an edge without a line", row.place());
     for (const OGRPoint& p : *line->toLineString()) file_.points.push_back({p.getX(), p.getY(), p.getZ()});
-    file_.half_edges.push_back({row.index("from_vertex"), 2 * e + 1, row.index("left_next"), row.index("left_face"), e});
+    file_.half_edges.push_back(
+        {row.index("from_vertex"), 2 * e + 1, row.index("left_next"), row.index("left_face"), e});
     file_.half_edges.push_back({row.index("to_vertex"), 2 * e, row.index("right_next"), row.index("right_face"), e});
     file_.edges.push_back(edge);
     return std::monostate{};
@@ -137,7 +140,8 @@ class GeoPackageReader {
     for (const Index h : numbers_in<Index>(row.text("inner"))) file_.inner.push_back(h);
     if (file_.faces.back().feature == File::none) return std::monostate{};
     const std::vector<double> at = numbers_in<double>(row.text("at"));
-    if (at.size() != 3 && at.size() != 6 && at.size() != 9) return fault("a face without the points of its feature", row.place());
+    if (at.size() != 3 && at.size() != 6 && at.size() != 9)
+      return fault("a face without the points of its feature", row.place());
     File::Feature feature{{}, int(at.size() / 3)};
     for (std::size_t i = 0; i < at.size() / 3; ++i) feature.at[i] = {at[3 * i], at[3 * i + 1], at[3 * i + 2]};
     features_.emplace(file_.faces.back().feature, feature);
@@ -155,7 +159,9 @@ class GeoPackageReader {
 
   static double distance(Point3 p, const File::Feature& feature) {
     const auto minus = [](Point3 a, Point3 b) { return Point3{a.x - b.x, a.y - b.y, a.z - b.z}; };
-    const auto cross = [](Point3 a, Point3 b) { return Point3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; };
+    const auto cross = [](Point3 a, Point3 b) {
+      return Point3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    };
     const auto length = [](Point3 a) { return std::hypot(a.x, a.y, a.z); };
     const Point3 w = minus(p, feature.at[0]);
     if (feature.count == 1) return length(w);
@@ -165,8 +171,8 @@ class GeoPackageReader {
     return std::fabs(n.x * w.x + n.y * w.y + n.z * w.z) / length(n);
   }
 
-  /// The file does not name the radius; every vertex is that far from what the ball touches there. The median of many, in which
-  /// the rounding of a single one does not matter.
+  /// The file does not name the radius; every vertex is that far from what the ball touches there. The median of many,
+  /// in which the rounding of a single one does not matter.
   Status find_radius() {
     std::vector<double> found;
     const std::size_t step = file_.edges.size() / samples_of_radius + 1;
@@ -191,7 +197,8 @@ class GeoPackageReader {
 
 bool is_subdivision_gpkg(const std::string& path) {
   const Dataset dataset = open_quietly(path);
-  return dataset && dataset->GetLayerByName("faces") && dataset->GetLayerByName("edges") && dataset->GetLayerByName("vertices");
+  return dataset && dataset->GetLayerByName("faces") && dataset->GetLayerByName("edges") &&
+         dataset->GetLayerByName("vertices");
 }
 
 Result<SubdivisionGeoPackage> read_subdivision_gpkg(const std::string& path, const Context& context) {
@@ -200,7 +207,8 @@ Result<SubdivisionGeoPackage> read_subdivision_gpkg(const std::string& path, con
   Result<File> file = GeoPackageReader(*dataset, context).read();
   if (!file) return file.error();
   SubdivisionGeoPackage result{std::move(*file), ""};
-  if (const OGRSpatialReference* crs = dataset->GetLayerByName("faces")->GetSpatialRef(); crs != nullptr && !crs->IsLocal())
+  if (const OGRSpatialReference* crs = dataset->GetLayerByName("faces")->GetSpatialRef();
+      crs != nullptr && !crs->IsLocal())
     result.crs = ogr::crs_name(*crs);
   return result;
 }

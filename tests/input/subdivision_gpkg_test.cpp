@@ -54,11 +54,13 @@ TEST_F(SubdivisionGpkg, HasWhatTheJsonHas) {
   ASSERT_EQ(a.half_edges.size(), b.half_edges.size());
   for (std::size_t h = 0; h < a.half_edges.size(); ++h) {
     const auto &p = a.half_edges[h], &q = b.half_edges[h];
-    EXPECT_TRUE(p.origin == q.origin && p.twin == q.twin && p.next == q.next && p.face == q.face && p.edge == q.edge) << h;
+    EXPECT_TRUE(p.origin == q.origin && p.twin == q.twin && p.next == q.next && p.face == q.face && p.edge == q.edge)
+        << h;
   }
   ASSERT_EQ(a.edges.size(), b.edges.size());
   for (std::size_t e = 0; e < a.edges.size(); ++e) {
-    EXPECT_TRUE(a.edges[e].kind == b.edges[e].kind && a.edges[e].curve == b.edges[e].curve && a.edges[e].feature == b.edges[e].feature);
+    EXPECT_TRUE(a.edges[e].kind == b.edges[e].kind && a.edges[e].curve == b.edges[e].curve &&
+                a.edges[e].feature == b.edges[e].feature);
     EXPECT_EQ(a.points[a.edges[e].first], b.points[b.edges[e].first]);
   }
   ASSERT_EQ(a.faces.size(), b.faces.size());

@@ -55,7 +55,8 @@ class ViewTest(unittest.TestCase):
         self.assertAlmostEqual(data["layers"][0]["area"], 3.141592653589793, 15)
 
     def surface(self, name):
-        self.write("roof.off", "OFF\n6 4 0\n0 0 0\n9 0 0\n9 5 4\n0 5 4\n0 9 0\n9 9 0\n3 0 1 2\n3 0 2 3\n3 3 2 5\n3 3 5 4\n")
+        self.write("roof.off",
+                   "OFF\n6 4 0\n0 0 0\n9 0 0\n9 5 4\n0 5 4\n0 9 0\n9 9 0\n3 0 1 2\n3 0 2 3\n3 3 2 5\n3 3 5 4\n")
         subprocess.run([KREPL, "terrain", self.path("roof.off"), self.path(name), "--radius", "2", "--quiet"], check=True)
 
     def view_surface(self, *arguments):

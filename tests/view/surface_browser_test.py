@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The page of `krepl view` for surfaces in headless Chromium with software WebGL: what is drawn, the ball, sections, hands and keys.
+"""The page of `krepl view` for surfaces in headless Chromium with software WebGL: what is drawn, the ball, sections,
+hands and keys.
 
     surface_browser_test.py KREPL DIRECTORY        pages and screenshots go to DIRECTORY
 """
@@ -111,7 +112,8 @@ class SurfacePageTest(unittest.TestCase):
         self.browser.open(self.roof_page, "hide=seam,valley,rim")
         self.browser.evaluate("kreplView.setView([5, 5], [0, -0.05, 1, 40])")
         self.settle()
-        for place, wanted in (((5, 2), "sand"), ((5, 8), "sand"), ((5, 5), "blue"), ((-1, 5), "red"), ((-1, 2), "blue"), ((-1, -1), "red")):
+        for place, wanted in (((5, 2), "sand"), ((5, 8), "sand"), ((5, 5), "blue"), ((-1, 5), "red"), ((-1, 2), "blue"),
+                              ((-1, -1), "red")):
             contact = self.browser.evaluate(f"kreplView.contact({place[0]}, {place[1]})")
             self.assertEqual(["red", "blue", "sand"][contact["touches"][0]["kind"]], wanted, place)
             self.assertEqual(hue(self.color_at("surface_roof", (*place, contact["height"]))), wanted, place)
@@ -203,7 +205,8 @@ class SurfacePageTest(unittest.TestCase):
         self.browser.wait("Boolean(kreplView.ball())")
         ball = self.browser.evaluate("kreplView.ball()")
         size = f"(() => {{ const a = kreplView.toScreen({ball['x']}, {ball['y']}, {ball['height']}), " \
-               f"b = kreplView.toScreen({ball['x'] + 1}, {ball['y']}, {ball['height']}); return Math.hypot(a[0]-b[0], a[1]-b[1]); }})()"
+               f"b = kreplView.toScreen({ball['x'] + 1}, {ball['y']}, {ball['height']}); " \
+               "return Math.hypot(a[0]-b[0], a[1]-b[1]); })()"
         before = self.browser.evaluate(size)
         self.browser.mouse("mouseWheel", 640, 420, deltaX=0, deltaY=-600)
         self.browser.wait(f"{size} > 1.05 * {before}")

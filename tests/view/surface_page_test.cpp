@@ -1,4 +1,5 @@
-// The shape that a surface's page shows: triangles on their patches, watertight, of the right area; tiles; faults in files.
+// The shape that a surface's page shows: triangles on their patches, watertight, of
+// the right area; tiles; faults in files.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -29,15 +30,15 @@ using namespace krepl::view;
 using Face = Shape::FaceKind;
 constexpr double pi = std::numbers::pi;
 
-std::shared_ptr<const Terrain> grid(std::size_t columns, std::size_t rows, std::vector<double> heights, Point first = {0, 0}) {
+std::shared_ptr<const Terrain> grid(std::size_t columns, std::size_t rows, std::vector<double> heights,
+                                    Point first = {0, 0}) {
   Terrain::Grid g{columns, rows, first, 1, 1, Terrain::Split::rising};
   return std::make_shared<const Terrain>(Terrain::from_grid(g, std::move(heights)).value());
 }
 
 std::shared_ptr<const Terrain> hills(std::size_t side, Point first = {0, 0}) {
   std::vector<double> heights;
-  for (std::size_t i = 0; i < side * side; ++i)
-    heights.push_back(double((i * 2654435761u >> 7) % 9) / 2);
+  for (std::size_t i = 0; i < side * side; ++i) heights.push_back(double((i * 2654435761u >> 7) % 9) / 2);
   return grid(side, side, heights, first);
 }
 
@@ -47,7 +48,8 @@ input::SubdivisionFile surface_of(const std::shared_ptr<const Terrain>& terrain,
   options.radius = radius;
   const auto surface = compute_surface(terrain, options);
   EXPECT_TRUE(surface) << surface.error().text();
-  const std::string path = (std::filesystem::temp_directory_path() / ("krepl-page-" + std::to_string(::getpid()) + ".json")).string();
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("krepl-page-" + std::to_string(::getpid()) + ".json")).string();
   const auto written = output::write_surface(path, *surface, {output::SurfaceFormat::Kind::json, "json"}, {});
   EXPECT_TRUE(written) << written.error().text();
   auto file = input::read_subdivision(path);
@@ -82,9 +84,10 @@ void expect_on_patches(const Shape& shape, double max_error) {
         EXPECT_LT(off, 1e-7) << "face " << f;
       }
       EXPECT_LE(patch.deviation(corners[0], corners[1], corners[2]), 1.01 * max_error)
-          << "face " << f << " kind " << int(shape.faces[f].kind) << " triangle " << t - shape.faces[f].first_triangle << " of "
-          << shape.triangles_end(f) - shape.faces[f].first_triangle << " (" << corners[0].x << " " << corners[0].y << " " << corners[0].z << ") ("
-          << corners[1].x << " " << corners[1].y << " " << corners[1].z << ") (" << corners[2].x << " " << corners[2].y << " " << corners[2].z << ") " << shape.radius;
+          << "face " << f << " kind " << int(shape.faces[f].kind) << " triangle " << t - shape.faces[f].first_triangle
+          << " of " << shape.triangles_end(f) - shape.faces[f].first_triangle << " (" << corners[0].x << " "
+          << corners[0].y << " " << corners[0].z << ") (" << corners[1].x << " " << corners[1].y << " " << corners[1].z
+          << ") (" << corners[2].x << " " << corners[2].y << " " << corners[2].z << ") " << shape.radius;
     }
   }
 }
@@ -144,12 +147,13 @@ TEST(SurfaceShape, WallsFillTheStepBelowARim) {
     for (std::uint64_t t = shape->faces[f].first_triangle; t < shape->triangles_end(f); ++t) {
       const Point3 a = shape->vertices[shape->triangles[t][0]], b = shape->vertices[shape->triangles[t][1]],
                    c = shape->vertices[shape->triangles[t][2]];
-      const double x = (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y), y = (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z);
+      const double x = (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y),
+                   y = (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z);
       area += std::hypot(x, y) / 2;
     }
   }
-  // The table's rim is a stadium's half, 5 above 0; the floor's surface is 1 above its own ground in front of it, and falls to
-  // 0 in a quarter of a cylinder at both ends.
+  // The table's rim is a stadium's half, 5 above 0; the floor's surface is 1 above its own ground in front of it, and
+  // falls to 0 in a quarter of a cylinder at both ends.
   EXPECT_GT(area, 4 * 4);
   EXPECT_LT(area, 4 * 4 + 2 * 5 * 1 * pi / 2 + 1);
   EXPECT_NEAR(area_seen_from_above(*shape), 8 * 4 + 2 * (8 + 4) + pi, 0.05);
@@ -216,8 +220,8 @@ TEST(TileTree, EveryFaceIsInOneLeafAndInItsBox) {
       for (std::uint64_t t = shape->faces[f].first_triangle; t < shape->triangles_end(f); ++t, ++triangles)
         for (const Shape::Index v : shape->triangles[t]) {
           const Point3 p = shape->vertices[v];
-          EXPECT_TRUE(p.x >= tile.low.x && p.x <= tile.high.x && p.y >= tile.low.y && p.y <= tile.high.y && p.z >= tile.low.z &&
-                      p.z <= tile.high.z);
+          EXPECT_TRUE(p.x >= tile.low.x && p.x <= tile.high.x && p.y >= tile.low.y && p.y <= tile.high.y &&
+                      p.z >= tile.low.z && p.z <= tile.high.z);
         }
     }
     EXPECT_LE(triangles, TileTree::most_triangles);
@@ -264,7 +268,8 @@ TEST(SurfacePage, TheSameDataGiveTheSameBytes) {
   if (!first) GTEST_SKIP() << first.error().text();
   EXPECT_EQ(first->html, second->html);
   EXPECT_NE(first->html.find("<title>A &lt;b&gt;</title>"), std::string::npos);
-  for (const char* asking : {"<script src", "<link", "@import", "url("}) EXPECT_EQ(first->html.find(asking), std::string::npos);
+  for (const char* asking : {"<script src", "<link", "@import", "url("})
+    EXPECT_EQ(first->html.find(asking), std::string::npos);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The page of `krepl view` with half a million patches and with more than a million: size, time to open, frame times with software WebGL.
+"""The page of `krepl view` with half a million patches and with more than a million: size, time to open, frame times with
+software WebGL.
 
     surface_scale_test.py KREPL DIRECTORY
 """
@@ -54,7 +55,8 @@ class ScaleTest(unittest.TestCase):
         box = browser.evaluate("kreplView.page.layers[0]")
         origin = browser.evaluate("kreplView.page.origin")
         x, y = (origin[i] + box["low"][i] + 0.43 * box["side"] for i in (0, 1))
-        for where, distance in (("the whole", None), ("400 radii", 400), ("100 radii", 100), ("30 radii", 30), ("10 radii", 10)):
+        for distance in (None, 400, 100, 30, 10):
+            where = f"{distance} radii away" if distance else "the whole"
             if distance:
                 browser.evaluate(f"kreplView.setView([{x}, {y}], [-0.3, -0.8, 0.6, {distance * radius}])")
                 browser.settle()
@@ -62,8 +64,8 @@ class ScaleTest(unittest.TestCase):
             browser.screenshot(PAGES.path(f"{name}_{distance or 'whole'}.png"))
             times = browser.evaluate("kreplView.measure(24)")[8:]  # the first ones find the pace
             moving = browser.evaluate("kreplView.frame()")
-            print(f"{where}: {statistics.median(times):.0f} ms a picture (worst {max(times):.0f}) of {moving['triangles']} triangles; at rest "
-                  f"{drawn['triangles']} triangles, {drawn['segments']} pieces of edges", file=sys.stderr)
+            print(f"{where}: {statistics.median(times):.0f} ms a picture (worst {max(times):.0f}) of {moving['triangles']} "
+                  f"triangles; at rest {drawn['triangles']} triangles, {drawn['segments']} pieces of edges", file=sys.stderr)
             self.assertLess(statistics.median(times), SLOWEST, where)
         begin = time.monotonic()
         for k in range(50):

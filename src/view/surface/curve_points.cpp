@@ -11,8 +11,8 @@ namespace {
 using Curve = input::SubdivisionFile::Curve;
 using output::SurfacePatch;
 
-constexpr int deepest = 10;       // halvings of a stretch between two given points
-constexpr int root_steps = 60;    // of bisection
+constexpr int deepest = 10;          // halvings of a stretch between two given points
+constexpr int root_steps = 60;       // of bisection
 constexpr double most_steps = 1024;  // chords of an arc
 
 Point3 operator+(Point3 a, Point3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -72,7 +72,8 @@ void fill_arc(const Circle& circle, Point3 a, Point3 b, double max_error, std::v
   }
 }
 
-/// The point of a valley beside the middle of a chord, on the line across it seen from above; the middle if there is none.
+/// The point of a valley beside the middle of a chord, on the line across it seen
+/// from above; the middle if there is none.
 Point3 valley_point(Point3 a, Point3 b, const SurfacePatch& left, const SurfacePatch& right) {
   const Point3 middle = 0.5 * (a + b);
   const double across_x = -(b.y - a.y) / 2, across_y = (b.x - a.x) / 2;

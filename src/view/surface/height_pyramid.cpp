@@ -52,7 +52,8 @@ void HeightPyramid::draw(const Shape& shape, Point low, double cell) {
   for (std::size_t f = 0; f < shape.faces.size(); ++f) {
     const Shape::FaceKind kind = shape.faces[f].kind;
     if (kind == Shape::FaceKind::wall) continue;
-    const std::uint8_t cylinder = kind == Shape::FaceKind::cylinder ? 255 : 0, sphere = kind == Shape::FaceKind::sphere ? 255 : 0;
+    const std::uint8_t cylinder = kind == Shape::FaceKind::cylinder ? 255 : 0,
+                       sphere = kind == Shape::FaceKind::sphere ? 255 : 0;
     for (std::uint64_t t = shape.faces[f].first_triangle; t < shape.triangles_end(f); ++t) {
       std::array<Point3, 3> corner;
       for (std::size_t i = 0; i < 3; ++i) {

@@ -8,15 +8,15 @@
 
 namespace krepl::view {
 
-/// Samples of a shape seen from above, on the corners of square cells, at several levels: level 0 has the whole square in `cells`
-/// times `cells` cells, each further level twice as many a side. What is drawn from afar.
+/// Samples of a shape seen from above, on the corners of square cells, at several levels: level 0 has the whole square
+/// in `cells` times `cells` cells, each further level twice as many a side. What is drawn from afar.
 class HeightPyramid {
  public:
   /// Cells of a tile a side, the same at every level.
   static constexpr int cells = 32;
 
-  /// Samples the triangles at the finest level; coarser ones have every second sample, and the mean share of the kinds about it.
-  /// Time: that of the triangles' boxes in samples, and 4^levels * cells^2.
+  /// Samples the triangles at the finest level; coarser ones have every second sample, and the mean share of the kinds
+  /// about it. Time: that of the triangles' boxes in samples, and 4^levels * cells^2.
   HeightPyramid(const Shape& shape, Point low, double side, int levels);
 
   struct Sample {

@@ -50,7 +50,8 @@ class LinkCheck {
   Status features() {
     for (std::size_t f = 0; f < file_.features.size(); ++f)
       for (int i = 0; i < file_.features[f].count; ++i)
-        if (!finite(file_.features[f].at[std::size_t(i)])) return fault("a coordinate is not finite", item("features", f));
+        if (!finite(file_.features[f].at[std::size_t(i)]))
+          return fault("a coordinate is not finite", item("features", f));
     for (std::size_t e = 0; e < file_.edges.size(); ++e)
       for (const Index f : file_.edges[e].feature)
         if (!feature_or_none(f)) return fault(fmt::format("there is no feature {}", f), item("edges", e));
@@ -62,7 +63,8 @@ class LinkCheck {
     if (half.size() != 2 * file_.edges.size()) return fault("not two half-edges for each edge", "half_edges");
     for (Index h = 0; h < half.size(); ++h) {
       const File::HalfEdge& e = half[h];
-      if (e.edge != h / 2 || e.twin != (h ^ 1u)) return fault("is not one of its edge's two half-edges", item("half_edges", h));
+      if (e.edge != h / 2 || e.twin != (h ^ 1u))
+        return fault("is not one of its edge's two half-edges", item("half_edges", h));
       if (e.origin >= file_.vertices.size() || e.next >= half.size() || e.face >= file_.faces.size())
         return fault("leads to something that is not there", item("half_edges", h));
       if (half[e.next].face != e.face || half[e.next].origin != half[h ^ 1u].origin)
@@ -76,9 +78,11 @@ class LinkCheck {
   Status faces() {
     for (Index f = 0; f < file_.faces.size(); ++f) {
       const File::Face& face = file_.faces[f];
-      if (!feature_or_none(face.feature)) return fault(fmt::format("there is no feature {}", face.feature), item("faces", f));
+      if (!feature_or_none(face.feature))
+        return fault(fmt::format("there is no feature {}", face.feature), item("faces", f));
       if (face.feature != File::none && face.outer == File::none) return fault("has no outer loop", item("faces", f));
-      if (face.outer != File::none && !starts(face.outer, f)) return fault("its outer loop is another's", item("faces", f));
+      if (face.outer != File::none && !starts(face.outer, f))
+        return fault("its outer loop is another's", item("faces", f));
       for (std::uint64_t i = face.first_inner; i < file_.inner_end(f); ++i)
         if (!starts(file_.inner[i], f)) return fault("an inner loop is another's", item("faces", f));
     }

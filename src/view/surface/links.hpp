@@ -5,8 +5,8 @@
 
 namespace krepl::view {
 
-/// Whether a file's numbers can be followed: every index leads somewhere, half-edges 2e and 2e + 1 belong to edge e, `next` is a
-/// permutation within each face, coordinates and radius are finite. Linear time. Errors name the item.
+/// Whether a file's numbers can be followed: every index leads somewhere, half-edges 2e and 2e + 1 belong to edge e,
+/// `next` is a permutation within each face, coordinates and radius are finite. Linear time. Errors name the item.
 Status check_links(const input::SubdivisionFile& file);
 
 }  // namespace krepl::view

@@ -55,7 +55,9 @@ class Halving {
       for (std::size_t i = 0; i < 3; ++i) ++uses_[key(t[i], t[(i + 1) % 3])];
   }
 
-  double sagitta(Index a, Index b) const { return patch_.sagitta(patch_.curved_square(mesh_.points[a], mesh_.points[b])); }
+  double sagitta(Index a, Index b) const {
+    return patch_.sagitta(patch_.curved_square(mesh_.points[a], mesh_.points[b]));
+  }
   bool is_too_long(Key side, int uses) const { return uses > 1 && sagitta(Index(side >> 32), Index(side)) > limit_; }
 
   void halve(Index a, Index b) {

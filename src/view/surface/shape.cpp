@@ -55,10 +55,10 @@ class ShapeBuilder {
   const double max_error_;
   const Context& context_;
   Shape shape_;
-  std::vector<Index> edge_vertex_;           // inner vertices of edges
+  std::vector<Index> edge_vertex_;  // inner vertices of edges
   std::vector<std::uint64_t> edge_first_;
-  std::vector<bool> at_rim_;                 // by vertex
-  std::vector<Index> face_number_;           // of the file's faces in the shape
+  std::vector<bool> at_rim_;                   // by vertex
+  std::vector<Index> face_number_;             // of the file's faces in the shape
   std::vector<std::pair<Index, Index>> foot_;  // of the face in hand: top and foot
 };
 
@@ -87,7 +87,8 @@ void ShapeBuilder::place_edges() {
   for (Index e = 0; e < file_.edges.size(); ++e) {
     const File::Edge& edge = file_.edges[e];
     given.clear();
-    for (std::uint64_t i = edge.first; i < file_.points_end(e); ++i) given.push_back(minus(file_.points[i], shape_.origin));
+    for (std::uint64_t i = edge.first; i < file_.points_end(e); ++i)
+      given.push_back(minus(file_.points[i], shape_.origin));
     // Exactly its vertices, which its neighbours use.
     given.front() = shape_.vertices[file_.half_edges[2 * e].origin];
     given.back() = shape_.vertices[file_.half_edges[2 * e + 1].origin];
@@ -98,8 +99,8 @@ void ShapeBuilder::place_edges() {
       for (int i : {0, 1})
         if (edge.feature[std::size_t(i)] != File::none) side[i] = patch_of(edge.feature[std::size_t(i)]);
     const bool both = side[0] && side[1];
-    const std::vector<Point3> points =
-        curve_points(given, edge.curve, both ? &*side[0] : nullptr, both ? &*side[1] : nullptr, border_share * max_error_);
+    const std::vector<Point3> points = curve_points(given, edge.curve, both ? &*side[0] : nullptr,
+                                                    both ? &*side[1] : nullptr, border_share * max_error_);
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
       edge_vertex_.push_back(Index(shape_.vertices.size()));
       shape_.vertices.push_back(points[i]);
@@ -190,7 +191,8 @@ void ShapeBuilder::add_face(Index number) {
     }
   }
   face_number_[number] = Index(shape_.faces.size());
-  shape_.faces.push_back({Shape::FaceKind(shape_.features[face.feature].count - 1), face.feature, shape_.triangles.size()});
+  shape_.faces.push_back(
+      {Shape::FaceKind(shape_.features[face.feature].count - 1), face.feature, shape_.triangles.size()});
   const PatchTriangles mesh = patch_triangles(patch, std::move(points), loops, max_error_);
   for (std::size_t i = global.size(); i < mesh.points.size(); ++i) {
     global.push_back(Index(shape_.vertices.size()));
@@ -226,9 +228,11 @@ Result<Shape> ShapeBuilder::build() {
     }
     if (file_.faces[f].feature != File::none) add_face(f);
     if (shape_.vertices.size() >= Shape::none / 2)
-      return Error{ErrorCode::input, "has too many patches for a page", "", "show a part of it, or give a larger --max-error"};
+      return Error{ErrorCode::input, "has too many patches for a page", "",
+                   "show a part of it, or give a larger --max-error"};
   }
-  if (shape_.triangles.empty()) return Error{ErrorCode::input, "has no face", "", "give a surface that krepl terrain wrote"};
+  if (shape_.triangles.empty())
+    return Error{ErrorCode::input, "has no face", "", "give a surface that krepl terrain wrote"};
   // A line goes with the face on its upper side.
   for (Index e = 0; e < file_.edges.size(); ++e) {
     const Index h = file_.edges[e].feature[0] != File::none ? 2 * e : 2 * e + 1;

@@ -17,12 +17,13 @@ struct Shape {
   using Index = std::uint32_t;
   static constexpr Index none = ~Index{0};
 
-  /// The numbers are those of the page's script (surface/kinds.js); the first three are the number of input points less one.
+  /// The numbers are those of the page's script (surface/kinds.js); the first three
+  /// are the number of input points less one.
   enum class FaceKind : std::uint8_t { sphere = 0, cylinder = 1, plane = 2, wall = 3, ground = 4 };
   struct Face {
     FaceKind kind;
-    Index feature;                ///< what the ball touches there: index into `features`; none of walls and ground
-    std::uint64_t first_triangle; ///< its triangles end where those of the next face begin
+    Index feature;                 ///< what the ball touches there: index into `features`; none of walls and ground
+    std::uint64_t first_triangle;  ///< its triangles end where those of the next face begin
   };
   enum class LineKind : std::uint8_t { seam = 0, valley = 1, rim = 2 };
   struct Line {
@@ -53,8 +54,8 @@ struct Shape {
   }
 };
 
-/// A surface's patches as triangles, its edges as chords, all within `max_error` (> 0) of the true ones, and the vertical walls
-/// between a rim and the surface below it. Time is linear in the triangles, memory some 60 bytes each.
+/// A surface's patches as triangles, its edges as chords, all within `max_error` (> 0) of the true ones, and the
+/// vertical walls between a rim and the surface below it. Time is linear in the triangles, memory some 60 bytes each.
 ///
 /// Errors name the item: links that lead nowhere or loops that do not close, coordinates that are not finite, a
 /// surface without a face, more than 2^32 - 1 vertices; cancelled.

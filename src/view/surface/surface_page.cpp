@@ -20,8 +20,9 @@ using Json = nlohmann::ordered_json;
 std::vector<double> tile_table(const TileTree& tree) {
   std::vector<double> table;
   for (const TileTree::Tile& t : tree.tiles())
-    table.insert(table.end(), {double(t.depth), double(t.column), double(t.row), double(t.first_child), double(t.children),
-                               double(t.last - t.first), t.low.x, t.low.y, t.low.z, t.high.x, t.high.y, t.high.z});
+    table.insert(table.end(),
+                 {double(t.depth), double(t.column), double(t.row), double(t.first_child), double(t.children),
+                  double(t.last - t.first), t.low.x, t.low.y, t.low.z, t.high.x, t.high.y, t.high.z});
   return table;
 }
 

@@ -25,7 +25,8 @@ void to_differences(Words& values) {
   }
 }
 
-/// Numbers in the order of first use become small: 0 is the next new one [Isenburg and Snoeyink 2005; Cesium's quantized-mesh].
+/// Numbers in the order of first use become small: 0 is the next new one [Isenburg and
+/// Snoeyink 2005; Cesium's quantized-mesh].
 Words below_highest(const Words& values) {
   Words coded;
   std::uint32_t next = 0;
@@ -90,7 +91,8 @@ LeafArrays collect(const Shape& shape, const TileTree& tree, const TileTree::Til
   for (const std::uint32_t l : tree.lines_of(leaf)) {
     a.line_kind.push_back(std::uint8_t(shape.lines[l].kind));
     a.line_count.push_back(std::uint32_t(shape.line_end(l) - shape.lines[l].first));
-    for (std::uint64_t i = shape.lines[l].first; i < shape.line_end(l); ++i) a.line_vertex.push_back(a.vertex(shape.line_vertices[i]));
+    for (std::uint64_t i = shape.lines[l].first; i < shape.line_end(l); ++i)
+      a.line_vertex.push_back(a.vertex(shape.line_vertices[i]));
   }
   return a;
 }
@@ -120,7 +122,9 @@ void PlaneWriter::planes(const std::vector<T>& values) {
     for (std::size_t i = 0; i < values.size(); ++i) raw_.push_back(from[i * sizeof(T) + plane]);
 }
 
-void PlaneWriter::bytes(const std::vector<std::uint8_t>& values) { raw_.insert(raw_.end(), values.begin(), values.end()); }
+void PlaneWriter::bytes(const std::vector<std::uint8_t>& values) {
+  raw_.insert(raw_.end(), values.begin(), values.end());
+}
 void PlaneWriter::words(const Words& values) { planes(values); }
 void PlaneWriter::doubles(const std::vector<double>& values) { planes(values); }
 

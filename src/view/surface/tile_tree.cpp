@@ -75,7 +75,9 @@ void TileTree::sort_faces() {
   }
 }
 
-std::uint64_t TileTree::triangles_in(std::uint32_t first, std::uint32_t last) const { return running_[last] - running_[first]; }
+std::uint64_t TileTree::triangles_in(std::uint32_t first, std::uint32_t last) const {
+  return running_[last] - running_[first];
+}
 
 void TileTree::split() {
   tiles_.push_back({0, 0, 0, 0, 0, 0, std::uint32_t(order_.size()), {}, {}});

@@ -8,8 +8,8 @@
 
 namespace krepl::view {
 
-/// A shape cut into tiles by a quadtree of its bounding square: leaves have the faces whose middle lies in them, with all their
-/// triangles and lines; the tiles above have samples of the heights.
+/// A shape cut into tiles by a quadtree of its bounding square: leaves have the faces whose middle lies in them, with
+/// all their triangles and lines; the tiles above have samples of the heights.
 class TileTree {
  public:
   /// A leaf has no more, unless a single face has.
@@ -19,10 +19,10 @@ class TileTree {
 
   struct Tile {
     int depth;
-    std::int64_t column, row;           ///< of its square, among 2^depth a side
+    std::int64_t column, row;             ///< of its square, among 2^depth a side
     std::uint32_t first_child, children;  ///< none: a leaf
-    std::uint32_t first, last;          ///< of order(): its faces
-    Point3 low, high;                   ///< box of all its triangles
+    std::uint32_t first, last;            ///< of order(): its faces
+    Point3 low, high;                     ///< box of all its triangles
   };
   /// Breadth first: the first one is the whole shape, those of a tile are in one run.
   const std::vector<Tile>& tiles() const { return tiles_; }
@@ -48,8 +48,8 @@ class TileTree {
   int sampled_levels_ = 0;
   std::vector<Tile> tiles_;
   std::vector<std::uint32_t> order_;
-  std::vector<std::uint64_t> place_;   // along the Z-curve, by position in order_
-  std::vector<std::uint64_t> running_; // triangles before each position
+  std::vector<std::uint64_t> place_;              // along the Z-curve, by position in order_
+  std::vector<std::uint64_t> running_;            // triangles before each position
   std::vector<std::uint32_t> line_begin_, line_;  // compressed rows: lines by face
 };
 

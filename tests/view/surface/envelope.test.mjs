@@ -1,6 +1,7 @@
 // Heights in the page against krepl's drop cutter, which knows nothing of the surface.
 import assert from 'node:assert/strict';
 import test from 'node:test';
+
 import {heights, hills, module, pageOf, randomFrom, writeMesh} from './support.mjs';
 
 const {Envelope} = await module('envelope');
@@ -41,7 +42,7 @@ test('a radius larger than the cells, more tiles than one', () => compare('wide'
 test('from a GeoPackage', () => compare('packed', hills('packed', 16, 3, 7), 1.25, 2000, 8, 'gpkg'));
 test('a step with an upright wall', () => {
   const box = (z, x) => [[x, 0, z], [x + 4, 0, z], [x + 4, 4, z], [x, 4, z]];
-  const mesh = writeMesh('step', [...box(0, 0), ...box(3, 4)],
-    [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7], [1, 4, 7], [1, 7, 2]]);
+  const mesh = writeMesh(
+      'step', [...box(0, 0), ...box(3, 4)], [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7], [1, 4, 7], [1, 7, 2]]);
   return compare('step', mesh, 1, 3000, 9);
 });

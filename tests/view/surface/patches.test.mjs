@@ -1,6 +1,7 @@
 // The closed forms of planes, cylinders and spheres against the definition: the ball touches, and does not cut.
 import assert from 'node:assert/strict';
 import test from 'node:test';
+
 import {module, randomFrom} from './support.mjs';
 
 const {makePatch, touch, normalAt} = await module('patches');
@@ -31,12 +32,14 @@ for (const count of [1, 2, 3]) {
     const random = randomFrom(count);
     let touched = 0;
     for (let i = 0; i < 3000; ++i) {
-      const points = Array.from({length: count}, () => [0, 0, 0].map(() => 4 * random() - 2)), radius = 0.2 + 2 * random();
+      const points = Array.from({length: count}, () => [0, 0, 0].map(() => 4 * random() - 2)),
+            radius = 0.2 + 2 * random();
       const patch = makePatch(points, radius), x = 4 * random() - 2, y = 4 * random() - 2, hit = touch(patch, x, y);
       if (!hit) continue;
       ++touched;
       const center = [x, y, hit.height];
-      assert.ok(Math.abs(Math.hypot(...minus(center, hit.at)) - radius) < 1e-9 * radius, 'the contact is at the radius');
+      assert.ok(
+          Math.abs(Math.hypot(...minus(center, hit.at)) - radius) < 1e-9 * radius, 'the contact is at the radius');
       assert.ok(Math.abs(distance(center, points) - radius) < 1e-9, 'and nothing is nearer');
       assert.ok(distance(hit.at, points) < 1e-7, 'the contact is on the feature');
       const n = normalAt(patch, ...center, [0, 0, 0]);

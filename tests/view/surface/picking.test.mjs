@@ -1,6 +1,7 @@
 // Rays against triangles and the exact surface; what follows # in the address; numbers for people.
 import assert from 'node:assert/strict';
 import test from 'node:test';
+
 import {hills, module, pageOf} from './support.mjs';
 
 const {entryOf, hitTriangles, refine} = await module('picking');
@@ -24,7 +25,8 @@ test('the nearest triangle that is allowed', () => {
 });
 
 test('the exact place under a ray', async () => {
-  const {page, layers: [surface]} = await pageOf('picking', hills('picking', 16, 2, 31), 1), envelope = new Envelope(surface, 1);
+  const {page, layers: [surface]} = await pageOf('picking', hills('picking', 16, 2, 31), 1),
+                       envelope = new Envelope(surface, 1);
   const target = [7.3 - page.origin[0], 8.1 - page.origin[1]], height = envelope.contact(...target).height;
   const origin = [target[0] - 3, target[1] - 4, height + 12], direction = [3 / 13, 4 / 13, -12 / 13];
   for (const off of [-0.2, 0, 0.2]) {

@@ -1,6 +1,7 @@
 // Sections: pieces of the true curves, without gaps, ending where patches do.
 import assert from 'node:assert/strict';
 import test from 'node:test';
+
 import {hills, module, pageOf, writeMesh} from './support.mjs';
 
 const {Envelope} = await module('envelope');
@@ -58,10 +59,13 @@ test('the terrain below', () => {
 });
 
 test('a gap between two islands stays a gap', async () => {
-  const mesh = writeMesh('islands', [[0, 0, 0], [2, 0, 0], [0, 2, 0], [9, 0, 0], [11, 0, 0], [11, 2, 0]], [[0, 1, 2], [3, 4, 5]]);
+  const mesh = writeMesh(
+      'islands', [[0, 0, 0], [2, 0, 0], [0, 2, 0], [9, 0, 0], [11, 0, 0], [11, 2, 0]], [[0, 1, 2], [3, 4, 5]]);
   const {layers: [islands], page: {origin}} = await pageOf('islands', mesh, 1);
   const line = lineOf([0 - origin[0], 0.5 - origin[1]], 0), [from, to] = rangeOver(line, islands.low3, islands.high3);
   const pieces = surfaceSection(new Envelope(islands, 1), line, from, to, 500, 1e-9);
-  const gaps = pieces.slice(1).map((piece, k) => piece.points[0] - pieces[k].points[pieces[k].points.length - 2]).filter(d => d > 1e-6);
+  const gaps = pieces.slice(1)
+                   .map((piece, k) => piece.points[0] - pieces[k].points[pieces[k].points.length - 2])
+                   .filter(d => d > 1e-6);
   assert.equal(gaps.length, 1);
 });

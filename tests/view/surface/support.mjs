@@ -23,8 +23,10 @@ export function randomFrom(seed) {
 
 export function writeMesh(name, vertices, triangles) {
   const path = join(directory, name + '.off');
-  writeFileSync(path, ['OFF', `${vertices.length} ${triangles.length} 0`, ...vertices.map(v => v.join(' ')),
-    ...triangles.map(t => '3 ' + t.join(' '))].join('\n') + '\n');
+  writeFileSync(path, [
+    'OFF', `${vertices.length} ${triangles.length} 0`, ...vertices.map(v => v.join(' ')),
+    ...triangles.map(t => '3 ' + t.join(' '))
+  ].join('\n') + '\n');
   return path;
 }
 
@@ -62,5 +64,6 @@ export function heights(mesh, radius, places) {
   const at = join(directory, 'at.csv');
   writeFileSync(at, ['x,y', ...places.map(p => p.join(','))].join('\n') + '\n');
   const rows = krepl('height', mesh, '--radius', String(radius), '--at', at, '-o', '-').trim().split('\n').slice(1);
-  return rows.map(row => row.split(',')).map(([, , h, kind, ...p]) => ({h: h === '' ? NaN : Number(h), kind, p: p.map(Number)}));
+  return rows.map(row => row.split(',')).map(([, , h, kind,
+                                               ...p]) => ({h: h === '' ? NaN : Number(h), kind, p: p.map(Number)}));
 }

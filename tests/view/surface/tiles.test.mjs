@@ -1,6 +1,7 @@
 // Tiles as they come out of a page, and which of them are drawn.
 import assert from 'node:assert/strict';
 import test from 'node:test';
+
 import {hills, module, pageOf} from './support.mjs';
 
 const {undoBelowHighest, undoDifferences, ROW} = await module('decode');
@@ -69,13 +70,16 @@ test('samples are heights of the surface', () => {
   for (let row = 1; row < ROW - 1; row += 3) {
     for (let column = 1; column < ROW - 1; column += 3) {
       const x = tile.origin[0] + (column - 1) * tile.cell, y = tile.origin[1] + (row - 1) * tile.cell;
-      const highest = Math.max(...leaves.flatMap(t => {
-        const leaf = surface.decoded(t), found = [];
-        if (x < t.low[0] || x > t.high[0] || y < t.low[1] || y > t.high[1]) return found;
-        for (let f = 0; f < leaf.faceKind.length; ++f)
-          if (leaf.featureOf[f] >= 0) found.push(touch(makePatch(pointsOf(leaf, f), radius), x, y)?.height ?? -Infinity);
-        return found;
-      }), -Infinity);
+      const highest = Math.max(
+          ...leaves.flatMap(t => {
+            const leaf = surface.decoded(t), found = [];
+            if (x < t.low[0] || x > t.high[0] || y < t.low[1] || y > t.high[1]) return found;
+            for (let f = 0; f < leaf.faceKind.length; ++f)
+              if (leaf.featureOf[f] >= 0)
+                found.push(touch(makePatch(pointsOf(leaf, f), radius), x, y)?.height ?? -Infinity);
+            return found;
+          }),
+          -Infinity);
       const sample = z[row * ROW + column];
       if (Number.isNaN(sample) || highest === -Infinity) continue;
       assert.ok(Math.abs(sample - highest) < 2 * page.maxError, `${sample} ${highest}`);
@@ -93,14 +97,17 @@ test('arrays for drawing', () => {
     assert.equal(normal.length, 4 * count);
     assert.equal(mix.length, 4 * count);
     assert.ok(index.every(i => i < count));
-    for (let i = 0; i < count; ++i) assert.ok(Math.abs(Math.hypot(...normal.subarray(4 * i, 4 * i + 3)) / 127 - 1) < 0.02);
+    for (let i = 0; i < count; ++i)
+      assert.ok(Math.abs(Math.hypot(...normal.subarray(4 * i, 4 * i + 3)) / 127 - 1) < 0.02);
     const middle = middleOf(tile);
     for (let i = 0; i < 3; ++i) assert.ok(Math.abs(position[i]) <= tile.high[i] - middle[i] + 2 * tile.cell + 1e-4);
   }
 });
 
 function choose(options) {
-  return chooseTiles(surface, {eye: [30, 30, 100], pixels: 1000, visible: () => true, ready: () => true, detail: 1, budget: 1e9, ...options});
+  return chooseTiles(
+      surface,
+      {eye: [30, 30, 100], pixels: 1000, visible: () => true, ready: () => true, detail: 1, budget: 1e9, ...options});
 }
 const covers = chosen => {
   const under = tile => chosen.includes(tile) || (!tile.leaf && tile.children.every(i => under(surface.tiles[i])));

@@ -1,13 +1,14 @@
 // All parts of the page and what they do to each other.
 
 import * as THREE from 'three';
+
 import {Ball} from './ball.js';
 import {Cut} from './cut.js';
 import {Envelope} from './envelope.js';
 import {Input} from './input.js';
 import {Inspector} from './inspector.js';
-import {Layer} from './layer.js';
 import {LINE_NAMES} from './kinds.js';
+import {Layer} from './layer.js';
 import {exact, niceStep, text} from './numbers.js';
 import {parseFragment} from './page_state.js';
 import {Panel} from './panel.js';
@@ -46,7 +47,8 @@ export class App {
   makePanel() {
     const {scene, cut} = this, half = scene.extent / 2;
     this.panel = new Panel(this.page, {
-      hasTerrain: this.hasTerrain, opacity: 1,
+      hasTerrain: this.hasTerrain,
+      opacity: 1,
       showSurface: on => {
         scene.shown.surface = on;
         scene.request();
@@ -100,7 +102,9 @@ export class App {
   inputActions() {
     return {
       // A click holds the ball where it is, for looking at it; the next one lets it follow the mouse again.
-      hold: () => { this.held = !this.held; },
+      hold: () => {
+        this.held = !this.held;
+      },
       release: () => {
         this.held = false;
         this.ball.remove();
@@ -115,8 +119,10 @@ export class App {
       roll: (dx, dy) => {
         const {rest} = this.ball, {target} = this.scene.controls, step = this.page.radius / 10;
         this.held = true;
-        if (rest) this.roll(rest.x + dx * step, rest.y + dy * step);
-        else this.roll(target.x, target.y);
+        if (rest)
+          this.roll(rest.x + dx * step, rest.y + dy * step);
+        else
+          this.roll(target.x, target.y);
       },
       fit: () => this.scene.fit(undefined, this.margins),
       top: () => this.lookDown(),
@@ -136,7 +142,7 @@ export class App {
   roll(x, y) {
     const rest = this.ball.place(x, y);
     if (!rest) return;
-    this.inspector.show(rest);
+    this.inspector.show(rest, this.held);
     this.followBall();
   }
 
@@ -167,7 +173,8 @@ export class App {
 
   lookDown() {
     const {controls, camera} = this.scene, distance = camera.position.distanceTo(controls.target);
-    this.scene.look(controls.target.clone(), controls.target.clone().add(new THREE.Vector3(0, -1e-4, 1).multiplyScalar(distance)));
+    this.scene.look(
+        controls.target.clone(), controls.target.clone().add(new THREE.Vector3(0, -1e-4, 1).multiplyScalar(distance)));
   }
 
   // Near enough to see what is touched.
@@ -183,11 +190,13 @@ export class App {
   eyeFor(target, direction, distance) {
     const flat = Math.hypot(direction.x, direction.y) || 1e-9;
     let up = Math.atan2(direction.z, flat);
-    const eye = () => target.clone().add(new THREE.Vector3(direction.x / flat * Math.cos(up), direction.y / flat * Math.cos(up), Math.sin(up))
-      .multiplyScalar(distance));
+    const eye = () => target.clone().add(
+        new THREE.Vector3(direction.x / flat * Math.cos(up), direction.y / flat * Math.cos(up), Math.sin(up))
+            .multiplyScalar(distance));
     const hidden = place => Array.from({length: 24}, (_, i) => target.clone().lerp(place, (i + 1) / 24))
-      .some(p => (this.envelope.contact(p.x, p.y)?.height ?? -Infinity) > p.z);
-    for (; up < 1.5 && hidden(eye()); up += 0.1);
+                                .some(p => (this.envelope.contact(p.x, p.y)?.height ?? -Infinity) > p.z);
+    for (; up < 1.5 && hidden(eye()); up += 0.1)
+      ;
     return eye();
   }
 
@@ -249,13 +258,16 @@ export class App {
   // For scripts and tests; coordinates are those of the file.
   api() {
     const {scene, page} = this, origin = page.origin;
-    const told = contact => contact && {height: contact.height + origin[2],
-      touches: contact.touches.map(t => ({feature: t.feature, kind: t.kind, at: t.at.map((v, i) => v + origin[i])}))};
+    const told = contact => contact && {
+      height: contact.height + origin[2],
+      touches: contact.touches.map(t => ({feature: t.feature, kind: t.kind, at: t.at.map((v, i) => v + origin[i])}))
+    };
     return {
       page,
       frame: () => ({count: scene.frames, stale: scene.stale || scene.drawn.waiting, ...scene.drawn}),
       contact: (x, y) => told(this.envelope.contact(...this.local(x, y))),
-      ball: () => this.ball.rest && {x: this.ball.rest.x + origin[0], y: this.ball.rest.y + origin[1], ...told(this.ball.rest)},
+      ball: () =>
+          this.ball.rest && {x: this.ball.rest.x + origin[0], y: this.ball.rest.y + origin[1], ...told(this.ball.rest)},
       roll: (x, y) => {
         this.held = true;
         this.roll(...this.local(x, y));
@@ -270,9 +282,15 @@ export class App {
       section: (count = 1500, tolerance = scene.extent * 1e-12) => {
         const range = this.cut.range(), {line} = this.cut, curves = this.cut.curves(...range, count, tolerance);
         const place = (s, z) => [...line.place(s).map((v, i) => v + origin[i]), z + origin[2]];
-        return {surface: curves.surface.map(({feature, kind, points}) => ({feature, kind,
-          points: Array.from({length: points.length / 2}, (_, i) => place(points[2 * i], points[2 * i + 1]))})),
-          ground: curves.ground.map(([s0, z0, s1, z1]) => [place(s0, z0), place(s1, z1)])};
+        return {
+          surface: curves.surface.map(
+              ({feature, kind, points}) => ({
+                feature,
+                kind,
+                points: Array.from({length: points.length / 2}, (_, i) => place(points[2 * i], points[2 * i + 1]))
+              })),
+          ground: curves.ground.map(([s0, z0, s1, z1]) => [place(s0, z0), place(s1, z1)])
+        };
       },
       // Milliseconds of each of `count` pictures while the eye turns, with all that drawing takes.
       measure: count => this.measure(count),

@@ -1,28 +1,40 @@
 // The ball where it rests, what it touches, and the patch its centre is on.
 
 import * as THREE from 'three';
+
+import {middleOf} from './geometry.js';
 import {lineMaterial, Lines} from './lines.js';
 import {glassMaterial} from './materials.js';
 import {entryOf, hitTriangles, refine} from './picking.js';
-import {middleOf} from './geometry.js';
 
-const always = {depthTest: false, depthWrite: false, transparent: true};
+const always = {
+  depthTest: false,
+  depthWrite: false,
+  transparent: true
+};
 
 export class Ball {
   constructor(scene, envelope, radius) {
     Object.assign(this, {scene, envelope, radius});
-    this.rest = null;          // { x, y, height, touches }
+    this.rest = null;  // { x, y, height, touches }
     this.group = new THREE.Group();
     this.group.visible = false;
     this.body = new THREE.Mesh(new THREE.SphereGeometry(radius, 64, 40), glassMaterial());
     this.body.renderOrder = 10;
-    this.inner = new THREE.Group();   // relative to the centre
+    this.inner = new THREE.Group();  // relative to the centre
     this.inner.add(this.body);
     this.spokes = this.lines(1.6, 12);
     this.outline = this.lines(2.6, 11);
     this.dots = this.points(11, 13);
-    this.patch = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({transparent: true, opacity: 0.5,
-      side: THREE.DoubleSide, depthWrite: false, polygonOffset: true, polygonOffsetFactor: 0, polygonOffsetUnits: -2}));
+    this.patch = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({
+      transparent: true,
+      opacity: 0.5,
+      side: THREE.DoubleSide,
+      depthWrite: false,
+      polygonOffset: true,
+      polygonOffsetFactor: 0,
+      polygonOffsetUnits: -2
+    }));
     this.patch.renderOrder = 2;
     this.patch.frustumCulled = false;
     this.group.add(this.inner, this.patch);
@@ -68,7 +80,8 @@ export class Ball {
     const at = contact.touches.map(t => relative(t.at));
     this.spokes.replace(at.flatMap(p => [0, 0, 0, ...p]));
     this.dots.geometry.dispose();
-    this.dots.geometry = new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), ...at.map(p => new THREE.Vector3(...p))]);
+    this.dots.geometry =
+        new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), ...at.map(p => new THREE.Vector3(...p))]);
     this.outline.replace(contact.touches.flatMap(t => outlineOf(t.points).map(relative)).flat());
     this.showPatch(contact.touches[0]);
     this.scene.request(true);
@@ -100,14 +113,16 @@ export class Ball {
   placeUnder(px, py) {
     const {origin, direction} = this.scene.ray(px, py), set = this.scene.surface;
     const plane = this.scene.cutting ? this.scene.cutPlane : null;
-    const allowed = t => !plane || [0, 1, 2].reduce((sum, i) =>
-      sum + plane.normal.getComponent(i) * (origin[i] + t * direction[i]), plane.constant) >= 0;
+    const allowed = t => !plane ||
+        [0, 1, 2].reduce(
+            (sum, i) => sum + plane.normal.getComponent(i) * (origin[i] + t * direction[i]), plane.constant) >= 0;
     let nearest = Infinity, cell = 0;
     const entered = set.chosen.map(tile => ({tile, t: entryOf(tile, origin, direction)})).filter(({t}) => t < Infinity);
     for (const {tile, t} of entered.sort((a, b) => a.t - b.t)) {
       if (t > nearest) break;
       const middle = middleOf(tile);
-      const hit = hitTriangles(set.meshes.get(tile.index).arrays, origin.map((v, i) => v - middle[i]), direction, allowed, nearest);
+      const hit = hitTriangles(
+          set.meshes.get(tile.index).arrays, origin.map((v, i) => v - middle[i]), direction, allowed, nearest);
       if (hit < nearest) [nearest, cell] = [hit, tile.leaf ? this.radius / 100 : tile.cell];
     }
     if (nearest === Infinity) return null;

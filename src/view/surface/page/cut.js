@@ -1,22 +1,23 @@
 // The cut: a vertical plane that can be moved and turned, and the curves in it.
 
 import * as THREE from 'three';
+
 import {lineMaterial, Lines} from './lines.js';
 import {lineOf, rangeOver, surfaceSection} from './section.js';
 import {groundSection} from './section_ground.js';
 
 const SAMPLES = 1500;
-const NEARBY = 40;        // radii on each side of the middle that the curves in space are made for, at least
+const NEARBY = 40;  // radii on each side of the middle that the curves in space are made for, at least
 
 export class Cut {
   constructor(scene, envelope, ground, page) {
     Object.assign(this, {scene, envelope, ground, page});
     this.on = false;
-    this.follow = true;      // goes through the ball
+    this.follow = true;  // goes through the ball
     this.cutGround = false;
-    this.angle = 0;          // degrees from east, of the line
+    this.angle = 0;  // degrees from east, of the line
     this.at = [0, 1].map(i => (scene.low[i] + scene.high[i]) / 2);
-    this.listeners = [];     // called when the line has changed
+    this.listeners = [];  // called when the line has changed
     this.group = new THREE.Group();
     this.kindLines = ['sphere', 'cylinder', 'plane'].map(() => this.lines(3.4));
     this.groundLines = this.lines(2.6);
@@ -30,7 +31,8 @@ export class Cut {
   }
 
   setTheme(colors) {
-    this.kindLines.forEach((lines, kind) => lines.material.color.set(strong([colors.sphere, colors.cylinder, colors.plane][kind])));
+    this.kindLines.forEach(
+        (lines, kind) => lines.material.color.set(strong([colors.sphere, colors.cylinder, colors.plane][kind])));
     this.groundLines.material.color.set('#2c3a22');
   }
 
@@ -60,8 +62,10 @@ export class Cut {
 
   // Curves of the section between two places of the line.
   curves(from, to, count, tolerance) {
-    return {surface: surfaceSection(this.envelope, this.line, from, to, count, tolerance),
-      ground: this.ground ? groundSection(this.ground, this.line, from, to) : []};
+    return {
+      surface: surfaceSection(this.envelope, this.line, from, to, count, tolerance),
+      ground: this.ground ? groundSection(this.ground, this.line, from, to) : []
+    };
   }
 
   // The curves in space, as fine as can be told from the eye.
@@ -74,7 +78,8 @@ export class Cut {
     const reach = Math.max(1.5 * eye.distanceTo(target), NEARBY * this.page.radius);
     const from = Math.max(range[0], middle - reach), to = Math.min(range[1], middle + reach), key = [from, to].join();
     // Small moves of the eye do not need new curves.
-    const near = this.made && Math.abs(this.made.reach / reach - 1) < 0.3 && Math.abs(this.made.middle - middle) < 0.2 * reach;
+    const near =
+        this.made && Math.abs(this.made.reach / reach - 1) < 0.3 && Math.abs(this.made.middle - middle) < 0.2 * reach;
     if (!this.dirty && (this.made?.key === key || near)) return;
     if (moving && !this.dirty) return;
     this.dirty = false;

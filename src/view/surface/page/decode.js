@@ -85,8 +85,8 @@ export function decodeLeaf(packed, box, exact) {
   return leaf;
 }
 
-export const CELLS = 32;         // of a tile of samples, a side
-export const ROW = CELLS + 3;    // samples a side: one cell more all around
+export const CELLS = 32;       // of a tile of samples, a side
+export const ROW = CELLS + 3;  // samples a side: one cell more all around
 
 export function decodeSamples(packed) {
   const reader = new PlaneReader(packed), count = ROW * ROW;

@@ -1,5 +1,6 @@
-// Where the ball rests: the highest of all patches over a place. Which ones are asked is told by a grid over the boxes of faces,
-// so the patch whose face has the place is always among them; every other one is a ball that touches the terrain, and cannot be higher.
+// Where the ball rests: the highest of all patches over a place. Which ones are asked is told by a grid over the boxes
+// of faces, so the patch whose face has the place is always among them; every other one is a ball that touches the
+// terrain, and cannot be higher.
 
 import {makePatch, touch} from './patches.js';
 
@@ -20,7 +21,9 @@ export class FaceGrid {
     for (let c = 0; c < this.cells * this.cells; ++c) this.first[c + 1] += this.first[c];
     this.face = new Uint32Array(this.first[this.cells * this.cells]);
     const fill = this.first.slice();
-    this.each(boxes, (cell, f) => { this.face[fill[cell]++] = f; });
+    this.each(boxes, (cell, f) => {
+      this.face[fill[cell]++] = f;
+    });
   }
 
   // Vertices are rounded: boxes grow by a margin.
@@ -30,17 +33,17 @@ export class FaceGrid {
       let x0 = Infinity, y0 = Infinity, x1 = -Infinity, y1 = -Infinity;
       for (let c = 3 * leaf.faceFirst[f]; c < 3 * leaf.faceFirst[f + 1]; ++c) {
         const x = leaf.x[leaf.corner[c]], y = leaf.y[leaf.corner[c]];
-        x0 = Math.min(x0, x); x1 = Math.max(x1, x);
-        y0 = Math.min(y0, y); y1 = Math.max(y1, y);
+        x0 = Math.min(x0, x);
+        x1 = Math.max(x1, x);
+        y0 = Math.min(y0, y);
+        y1 = Math.max(y1, y);
       }
       boxes.set([x0 - margin[0], y0 - margin[1], x1 + margin[0], y1 + margin[1]], 4 * f);
     }
     return boxes;
   }
 
-  column(x, i = 0) {
-    return Math.min(this.cells - 1, Math.max(0, Math.floor((x - this.low[i]) / this.width[i])));
-  }
+  column(x, i = 0) { return Math.min(this.cells - 1, Math.max(0, Math.floor((x - this.low[i]) / this.width[i]))); }
 
   each(boxes, put) {
     for (let f = 0; f < this.leaf.faceKind.length; ++f) {
@@ -61,13 +64,14 @@ export class Envelope {
   constructor(layer, radius) {
     this.layer = layer;
     this.radius = radius;
-    this.grids = new WeakMap();    // by decoded leaf
+    this.grids = new WeakMap();  // by decoded leaf
     this.patches = new WeakMap();
     // Heights as near as this are one: the accuracy that krepl promises.
     this.same = 1e-9 * Math.max(radius, ...[0, 1, 2].map(i => layer.high3[i] - layer.low3[i]));
   }
 
-  // { height, touches: [{ feature, kind, points, at, leaf, face }] }, the highest one first; null where the ball touches nothing.
+  // { height, touches: [{ feature, kind, points, at, leaf, face }] }, the highest one
+  // first; null where the ball touches nothing.
   contact(x, y) {
     let height = -Infinity;
     const found = [];

@@ -1,9 +1,9 @@
 // Decoded tiles as arrays for the graphics card. Positions are relative to the tile's middle.
 
 import {ROW} from './decode.js';
+import {pointsOf} from './envelope.js';
 import {CYLINDER, GROUND, SPHERE, WALL} from './kinds.js';
 import {makePatch, normalAt} from './patches.js';
-import {pointsOf} from './envelope.js';
 
 export function middleOf(tile) { return [0, 1, 2].map(i => (tile.low[i] + tile.high[i]) / 2); }
 
@@ -30,8 +30,12 @@ class VertexArrays {
   }
   finished(index) {
     const n = this.count;
-    return {position: this.position.slice(0, 3 * n), normal: this.normal.slice(0, 4 * n), mix: this.mix.slice(0, 4 * n),
-      index: n > 65535 ? index : Uint16Array.from(index)};
+    return {
+      position: this.position.slice(0, 3 * n),
+      normal: this.normal.slice(0, 4 * n),
+      mix: this.mix.slice(0, 4 * n),
+      index: n > 65535 ? index : Uint16Array.from(index)
+    };
   }
 }
 
@@ -50,8 +54,9 @@ export function leafGeometry(leaf, tile, radius) {
       const owner = kind === GROUND ? 0 : f;
       if (flat || seenIn[v] !== owner) {
         if (patch) normalAt(patch, leaf.x[v], leaf.y[v], leaf.z[v], normal);
-        number[v] = arrays.add(leaf.x[v] - middle[0], leaf.y[v] - middle[1], leaf.z[v] - middle[2],
-          flat ? flat[Math.floor(c / 3 - leaf.faceFirst[f])] : normal, mix);
+        number[v] = arrays.add(
+            leaf.x[v] - middle[0], leaf.y[v] - middle[1], leaf.z[v] - middle[2],
+            flat ? flat[Math.floor(c / 3 - leaf.faceFirst[f])] : normal, mix);
         seenIn[v] = owner;
       }
       index[c] = number[v];
@@ -83,7 +88,8 @@ export function leafLines(leaf, tile) {
   return lines.map(points => Float32Array.from(points));
 }
 
-// Samples on a grid. The outermost ones lie beyond the tile and a bit lower, so that no gap shows beside finer neighbours.
+// Samples on a grid. The outermost ones lie beyond the tile and a bit lower, so
+// that no gap shows beside finer neighbours.
 const SUNK = 0.3;  // of a cell
 
 export function sampleGeometry(samples, tile) {
@@ -95,8 +101,9 @@ export function sampleGeometry(samples, tile) {
       if (Number.isNaN(z[i])) continue;
       slopeAt(z, row, column, cell, normal);
       const sunk = row === 0 || column === 0 || row === ROW - 1 || column === ROW - 1 ? SUNK * cell : 0;
-      number[i] = arrays.add(left + column * cell, bottom + row * cell, z[i] - middle[2] - sunk, normal,
-        [samples.cylinder[i], samples.sphere[i], 0]);
+      number[i] = arrays.add(
+          left + column * cell, bottom + row * cell, z[i] - middle[2] - sunk, normal,
+          [samples.cylinder[i], samples.sphere[i], 0]);
     }
   }
   return arrays.finished(gridTriangles(number));

@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 
-const CLICK = 5;            // pixels that a hand may shake
+const CLICK = 5;  // pixels that a hand may shake
 const TURN = Math.PI / 24;
 
 export class Input {
@@ -52,10 +52,21 @@ export class Input {
       ArrowRight: () => event.shiftKey ? this.turn(-TURN, 0) : this.move(1, 0),
       ArrowUp: () => event.shiftKey ? this.turn(0, -TURN) : this.move(0, 1),
       ArrowDown: () => event.shiftKey ? this.turn(0, TURN) : this.move(0, -1),
-      '+': () => this.zoom(1 / 1.4), '=': () => this.zoom(1 / 1.4), '-': () => this.zoom(1.4),
-      '0': actions.fit, t: actions.top, b: actions.near, x: actions.cut,
-      '[': () => actions.shiftCut(-1), ']': () => actions.shiftCut(1), ',': () => actions.spinCut(5), '.': () => actions.spinCut(-5),
-      a: () => this.roll(-step, 0), d: () => this.roll(step, 0), w: () => this.roll(0, step), s: () => this.roll(0, -step),
+      '+': () => this.zoom(1 / 1.4),
+      '=': () => this.zoom(1 / 1.4),
+      '-': () => this.zoom(1.4),
+      '0': actions.fit,
+      t: actions.top,
+      b: actions.near,
+      x: actions.cut,
+      '[': () => actions.shiftCut(-1),
+      ']': () => actions.shiftCut(1),
+      ',': () => actions.spinCut(5),
+      '.': () => actions.spinCut(-5),
+      a: () => this.roll(-step, 0),
+      d: () => this.roll(step, 0),
+      w: () => this.roll(0, step),
+      s: () => this.roll(0, -step),
       Escape: actions.release,
     };
     const act = keys[event.key] ?? keys[event.key.toLowerCase()];

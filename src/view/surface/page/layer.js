@@ -1,9 +1,9 @@
 // A surface or terrain as its quadtree of tiles, each decoded when it is first asked for.
 
-import {bytesOf, decodeLeaf, decodeSamples, CELLS} from './decode.js';
+import {bytesOf, CELLS, decodeLeaf, decodeSamples} from './decode.js';
 
 const COLUMNS = 12;
-const MOST_KEPT = 3000;  // decoded tiles
+const MOST_KEPT = 800;  // decoded tiles
 
 export class Layer {
   // text(id): the base64 text of an array of the page.
@@ -20,9 +20,19 @@ export class Layer {
       const [depth, column, row, firstChild, children, faces, ...box] = table.subarray(i * COLUMNS, (i + 1) * COLUMNS);
       const leaf = children === 0, sampled = !leaf && depth < description.sampledLevels;
       const side = this.side / 2 ** depth;
-      this.tiles.push({index: i, depth, leaf, sampled, faces, low: Array.from(box.slice(0, 3)), high: Array.from(box.slice(3)),
-        origin: [this.low[0] + column * side, this.low[1] + row * side], side, cell: side / CELLS,
-        children: Array.from({length: children}, (_, k) => firstChild + k)});
+      this.tiles.push({
+        index: i,
+        depth,
+        leaf,
+        sampled,
+        faces,
+        low: Array.from(box.slice(0, 3)),
+        high: Array.from(box.slice(3)),
+        origin: [this.low[0] + column * side, this.low[1] + row * side],
+        side,
+        cell: side / CELLS,
+        children: Array.from({length: children}, (_, k) => firstChild + k)
+      });
     }
     this.exact = description.role === 'terrain';
   }
@@ -45,10 +55,12 @@ export class Layer {
   }
 
   // Leaves whose box may meet something: goes down where meets(tile) is true.
-  *leaves(meets, index = 0) {
+  * leaves(meets, index = 0) {
     const tile = this.tiles[index];
     if (!meets(tile)) return;
-    if (tile.leaf) yield tile;
-    else for (const child of tile.children) yield* this.leaves(meets, child);
+    if (tile.leaf)
+      yield tile;
+    else
+      for (const child of tile.children) yield* this.leaves(meets, child);
   }
 }

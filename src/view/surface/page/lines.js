@@ -1,5 +1,5 @@
-// Lines of a width in pixels, as strips of two triangles a segment. (three's own are drawn as instances, which software rendering
-// takes ten times as long for.)
+// Lines of a width in pixels, as strips of two triangles a segment. (three's own are drawn as instances, which software
+// rendering takes ten times as long for.)
 
 import * as THREE from 'three';
 
@@ -36,7 +36,9 @@ const FRAGMENT = `
     gl_FragColor = vec4(color, opacity);
   }`;
 
-const windowSize = {value: new THREE.Vector2(1, 1)};
+const windowSize = {
+  value: new THREE.Vector2(1, 1)
+};
 
 // All lines share the size of the window, in pixels.
 export function setWindow(width, height) { windowSize.value.set(width, height); }
@@ -44,8 +46,15 @@ export function setWindow(width, height) { windowSize.value.set(width, height); 
 // options: opacity, and those of any material.
 export function lineMaterial(width, planes, {opacity = 1, ...options} = {}) {
   const material = new THREE.ShaderMaterial({
-    vertexShader: VERTEX, fragmentShader: FRAGMENT, clipping: true, clippingPlanes: planes, side: THREE.DoubleSide,
-    polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -4, transparent: opacity < 1,
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    clipping: true,
+    clippingPlanes: planes,
+    side: THREE.DoubleSide,
+    polygonOffset: true,
+    polygonOffsetFactor: -1,
+    polygonOffsetUnits: -4,
+    transparent: opacity < 1,
     uniforms: {window: windowSize, width: {value: width}, opacity: {value: opacity}, color: {value: new THREE.Color()}},
     ...options,
   });
@@ -56,7 +65,8 @@ export function lineMaterial(width, planes, {opacity = 1, ...options} = {}) {
 // points: x, y, z of both ends of each segment in turn.
 export function lineGeometry(points) {
   const segments = points.length / 6, geometry = new THREE.BufferGeometry();
-  const position = new Float32Array(12 * segments), other = new Float32Array(12 * segments), side = new Int8Array(4 * segments);
+  const position = new Float32Array(12 * segments), other = new Float32Array(12 * segments),
+        side = new Int8Array(4 * segments);
   const index = new (4 * segments > 65535 ? Uint32Array : Uint16Array)(6 * segments);
   for (let s = 0; s < segments; ++s) {
     for (let corner = 0; corner < 4; ++corner) {

@@ -40,8 +40,8 @@ class Queue {
   }
 }
 
-// eye: the camera's place; pixels: of a unit of length at the distance 1; visible(tile); ready(tile) tells whether it can be drawn
-// now, and asks for it if not; detail: pixels of a cell that are fine enough; budget: of triangles.
+// eye: the camera's place; pixels: of a unit of length at the distance 1; visible(tile); ready(tile) tells whether it
+// can be drawn now, and asks for it if not; detail: pixels of a cell that are fine enough; budget: of triangles.
 // Returns the tiles, and whether better ones are still on their way.
 export function chooseTiles(layer, {eye, pixels, visible, ready, detail, budget}) {
   const chosen = [], queue = new Queue();
@@ -56,8 +56,10 @@ export function chooseTiles(layer, {eye, pixels, visible, ready, detail, budget}
     const {tile, size} = queue.pop();
     const enough = size <= detail || triangles > budget;
     if (tile.leaf || (enough && tile.sampled)) {
-      if (ready(tile)) chosen.push(tile);
-      else waiting = true;
+      if (ready(tile))
+        chosen.push(tile);
+      else
+        waiting = true;
       continue;
     }
     const children = tile.children.map(i => layer.tiles[i]);

@@ -4,7 +4,8 @@ import * as THREE from 'three';
 
 const SUN = new THREE.Vector3(-0.55, 0.5, 0.78).normalize();  // from the north-west, as maps have it
 
-// Light and paint. Patches are lit at their vertices, of which curved ones have many; the ground by the slope of each triangle.
+// Light and paint. Patches are lit at their vertices, of which curved ones have many;
+// the ground by the slope of each triangle.
 const LIGHT = `
   uniform vec3 planePaint, cylinderPaint, spherePaint, wallPaint, plainPaint, sun;
   uniform float relief, kinds;
@@ -60,14 +61,27 @@ const color = text => new THREE.Color(text);
 
 export function surfaceMaterial(planes, facets = false) {
   return new THREE.ShaderMaterial({
-    vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide, clipping: true, clippingPlanes: planes,
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    side: THREE.DoubleSide,
+    clipping: true,
+    clippingPlanes: planes,
     defines: facets ? {FACETS: 1} : {},
     // Lines that lie in the surface come out in front of it.
-    polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 2,
     uniforms: {
-      planePaint: {value: color('#fff')}, cylinderPaint: {value: color('#fff')}, spherePaint: {value: color('#fff')},
-      wallPaint: {value: color('#fff')}, plainPaint: {value: color('#fff')}, sun: {value: SUN}, relief: {value: 1},
-      opacity: {value: 1}, kinds: {value: 1}, toWorld: {value: new THREE.Matrix3()},
+      planePaint: {value: color('#fff')},
+      cylinderPaint: {value: color('#fff')},
+      spherePaint: {value: color('#fff')},
+      wallPaint: {value: color('#fff')},
+      plainPaint: {value: color('#fff')},
+      sun: {value: SUN},
+      relief: {value: 1},
+      opacity: {value: 1},
+      kinds: {value: 1},
+      toWorld: {value: new THREE.Matrix3()},
     },
   });
 }
@@ -85,7 +99,9 @@ export function setOpacity(material, opacity) {
 // A translucent body that is brighter at its outline.
 export function glassMaterial() {
   return new THREE.ShaderMaterial({
-    transparent: true, depthWrite: false, side: THREE.FrontSide,
+    transparent: true,
+    depthWrite: false,
+    side: THREE.FrontSide,
     uniforms: {color: {value: color('#fff')}, rim: {value: color('#fff')}},
     vertexShader: `
       varying vec3 vNormal, vView;

@@ -10,11 +10,16 @@ export function parseFragment(fragment) {
     if (NUMBERS.includes(name)) {
       const numbers = value.split(',').map(Number);
       if (value !== '' && numbers.every(Number.isFinite)) state[name] = numbers;
-    } else if (name === 'hide') state.hide = value.split(',').filter(Boolean);
-    else if (name === 'theme' && ['light', 'dark'].includes(value)) state.theme = value;
-    else if (name === 'figure') state.figure = true;
-    else if (name === 'cut-ground') state.cutGround = true;
-    else if (name === 'plain') state.plain = true;
+    } else if (name === 'hide')
+      state.hide = value.split(',').filter(Boolean);
+    else if (name === 'theme' && ['light', 'dark'].includes(value))
+      state.theme = value;
+    else if (name === 'figure')
+      state.figure = true;
+    else if (name === 'cut-ground')
+      state.cutGround = true;
+    else if (name === 'plain')
+      state.plain = true;
   }
   return state;
 }

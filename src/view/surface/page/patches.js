@@ -1,6 +1,7 @@
 // The ball against one feature of the terrain, in closed form: what krepl's patches are.
 
-// Contacts beyond a feature's end by so much of its size count: there the neighbour's patch has the same height and slope.
+// Contacts beyond a feature's end by so much of its size count: there the
+// neighbour's patch has the same height and slope.
 const SLACK = 1e-12;
 
 // A feature with what does not depend on the place: points is an array of 1, 2 or 3 points [x, y, z].
@@ -23,7 +24,8 @@ export function makePatch(points, radius) {
   return patch;
 }
 
-// Height of the ball's centre while it touches the feature and stands over (x, y), and where it touches; null if it cannot.
+// Height of the ball's centre while it touches the feature and stands over (x, y),
+// and where it touches; null if it cannot.
 export function touch(patch, x, y) {
   if (patch.points.length === 1) return touchVertex(patch, x, y);
   return patch.points.length === 2 ? touchEdge(patch, x, y) : touchFace(patch, x, y);

@@ -16,8 +16,10 @@ export function entryOf(tile, origin, direction) {
 export function hitTriangles({position, index}, origin, d, allowed, nearest = Infinity) {
   for (let k = 0; k < index.length; k += 3) {
     const a = 3 * index[k], b = 3 * index[k + 1], c = 3 * index[k + 2];
-    const ux = position[b] - position[a], uy = position[b + 1] - position[a + 1], uz = position[b + 2] - position[a + 2];
-    const vx = position[c] - position[a], vy = position[c + 1] - position[a + 1], vz = position[c + 2] - position[a + 2];
+    const ux = position[b] - position[a], uy = position[b + 1] - position[a + 1],
+          uz = position[b + 2] - position[a + 2];
+    const vx = position[c] - position[a], vy = position[c + 1] - position[a + 1],
+          vz = position[c + 2] - position[a + 2];
     const px = d[1] * vz - d[2] * vy, py = d[2] * vx - d[0] * vz, pz = d[0] * vy - d[1] * vx;
     const volume = ux * px + uy * py + uz * pz;
     if (volume === 0) continue;
@@ -35,8 +37,8 @@ export function hitTriangles({position, index}, origin, d, allowed, nearest = In
 
 const WIDENINGS = 12, STEPS = 60;
 
-// The place near origin + t * direction at which the ray meets the exact surface; null if it does not come through there.
-// step: about how far off the drawn triangles may be.
+// The place near origin + t * direction at which the ray meets the exact surface; null if it does not come through
+// there. step: about how far off the drawn triangles may be.
 export function refine(envelope, origin, direction, t, step) {
   const at = s => [0, 1, 2].map(i => origin[i] + s * direction[i]);
   const above = s => {
@@ -48,8 +50,10 @@ export function refine(envelope, origin, direction, t, step) {
     if (!(above(high) >= 0 && above(low) < 0)) continue;
     for (let i = 0; i < STEPS; ++i) {
       const middle = (high + low) / 2;
-      if (above(middle) >= 0) high = middle;
-      else low = middle;
+      if (above(middle) >= 0)
+        high = middle;
+      else
+        low = middle;
     }
     return at(high);
   }

@@ -2,6 +2,7 @@
 
 import * as THREE from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
+
 import {COLORS} from './kinds.js';
 import {lineMaterial, setWindow} from './lines.js';
 import {setOpacity, setPaints, surfaceMaterial} from './materials.js';
@@ -9,7 +10,7 @@ import {Pace} from './pace.js';
 import {TileSet} from './tiles.js';
 
 const FIELD_OF_VIEW = 35;
-const REST_AFTER = 180;       // milliseconds
+const REST_AFTER = 180;                         // milliseconds
 const LINE_WIDTHS = [1.1, 1.8, 2.2];            // pixels of seams, valleys, rims
 const FADING = [0.12, 0.25, 0.4, 0.6, 0.8, 1];  // lines of small faces are thin and pale, or nothing else would be seen
 
@@ -29,11 +30,11 @@ export class Scene {
     this.noPlanes = [];
     this.surfaceMaterial = surfaceMaterial(this.noPlanes);
     this.groundMaterial = surfaceMaterial(this.noPlanes, true);
-    this.lineMaterials = LINE_WIDTHS.map(width => FADING.map(share =>
-      lineMaterial(width * (0.5 + 0.5 * share), this.noPlanes, {opacity: share})));
-    this.sets = layers.map(layer => layer.role === 'surface'
-      ? new TileSet(layer, page.radius, this.surfaceMaterial, this.lineMaterials)
-      : new TileSet(layer, 0, this.groundMaterial, null));
+    this.lineMaterials = LINE_WIDTHS.map(
+        width => FADING.map(share => lineMaterial(width * (0.5 + 0.5 * share), this.noPlanes, {opacity: share})));
+    this.sets = layers.map(
+        layer => layer.role === 'surface' ? new TileSet(layer, page.radius, this.surfaceMaterial, this.lineMaterials) :
+                                            new TileSet(layer, 0, this.groundMaterial, null));
     for (const set of this.sets) this.scene.add(set.group);
     this.surface = this.sets[0];
     this.ground = this.sets[1] ?? null;
@@ -42,13 +43,19 @@ export class Scene {
     this.drawn = {tiles: 0, triangles: 0, segments: 0, waiting: true};
     this.frames = 0;
     this.pace = new Pace();
-    this.scale = 1;             // of the pixels a side
+    this.scale = 1;  // of the pixels a side
     this.stale = true;
-    this.listeners = [];        // called before each picture
+    this.listeners = [];  // called before each picture
     this.measure();
     this.controls = new OrbitControls(this.camera, canvas);
-    Object.assign(this.controls, {zoomToCursor: true, maxPolarAngle: Math.PI * 0.495, screenSpacePanning: false, rotateSpeed: 0.8,
-      minDistance: this.extent * 1e-6, maxDistance: this.extent * 6});
+    Object.assign(this.controls, {
+      zoomToCursor: true,
+      maxPolarAngle: Math.PI * 0.495,
+      screenSpacePanning: false,
+      rotateSpeed: 0.8,
+      minDistance: this.extent * 1e-6,
+      maxDistance: this.extent * 6
+    });
     this.controls.addEventListener('change', () => this.request(true));
     this.resize();
     this.fit();
@@ -69,9 +76,11 @@ export class Scene {
   setTheme(name) {
     this.colors = COLORS[name];
     const c = this.colors, {ground} = c;
-    setPaints(this.surfaceMaterial, {plane: c.plane, cylinder: c.cylinder, sphere: c.sphere, wall: c.wall, plain: c.plain});
+    setPaints(
+        this.surfaceMaterial, {plane: c.plane, cylinder: c.cylinder, sphere: c.sphere, wall: c.wall, plain: c.plain});
     setPaints(this.groundMaterial, {plane: ground, cylinder: ground, sphere: ground, wall: ground, plain: ground});
-    [c.seam, c.valley, c.rim].forEach((color, kind) => this.lineMaterials[kind].forEach(material => material.color.set(color)));
+    [c.seam, c.valley, c.rim].forEach(
+        (color, kind) => this.lineMaterials[kind].forEach(material => material.color.set(color)));
     this.scene.background = new THREE.Color(c.paper);
     this.request();
   }
@@ -99,10 +108,12 @@ export class Scene {
     const tangent = Math.tan(this.camera.fov * Math.PI / 360), free = 1 - margins.left / this.width;
     // As near as all corners of the box allow.
     let distance = 0;
-    const right = new THREE.Vector3().crossVectors(new THREE.Vector3(0, 0, 1), d).normalize(), up = new THREE.Vector3().crossVectors(d, right);
+    const right = new THREE.Vector3().crossVectors(new THREE.Vector3(0, 0, 1), d).normalize(),
+          up = new THREE.Vector3().crossVectors(d, right);
     for (let k = 0; k < 8; ++k) {
       const corner = new THREE.Vector3(...[0, 1, 2].map(i => (k >> i & 1 ? this.high : this.low)[i])).sub(middle);
-      const across = Math.abs(corner.dot(right)) / (tangent * this.camera.aspect * free), along = Math.abs(corner.dot(up)) / tangent;
+      const across = Math.abs(corner.dot(right)) / (tangent * this.camera.aspect * free),
+            along = Math.abs(corner.dot(up)) / tangent;
       distance = Math.max(distance, Math.max(across, along) + corner.dot(d));
     }
     this.look(middle, middle.clone().addScaledVector(d, 1.04 * distance));
@@ -162,20 +173,29 @@ export class Scene {
     const camera = this.camera;
     camera.updateMatrixWorld();
     const frustum = new THREE.Frustum().setFromProjectionMatrix(
-      new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
+        new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
     const box = new THREE.Box3(), {x, y, z} = camera.position;
-    const view = {...quality, eye: [x, y, z], pixels: this.pixels(),
-      visible: tile => frustum.intersectsBox(box.set(box.min.fromArray(tile.low), box.max.fromArray(tile.high)))};
+    const view = {
+      ...quality,
+      eye: [x, y, z],
+      pixels: this.pixels(),
+      visible: tile => frustum.intersectsBox(box.set(box.min.fromArray(tile.low), box.max.fromArray(tile.high)))
+    };
     const toWorld = new THREE.Matrix3().setFromMatrix4(camera.matrixWorld);
     for (const material of [this.surfaceMaterial, this.groundMaterial]) material.uniforms.toWorld.value.copy(toWorld);
     const surface = this.surface.group.visible = this.shown.surface;
     // Below an opaque surface nothing of the ground shows.
     const ground = this.ground && this.shown.ground && (!surface || this.opacity < 1 || this.cutting);
     if (this.ground) this.ground.group.visible = Boolean(ground);
-    const drawn = [surface && this.surface, ground && this.ground].filter(Boolean)
-      .map(set => set.update({...view, budget: view.budget / (surface && ground ? 2 : 1)}, quality.milliseconds));
+    const drawn = [surface && this.surface, ground && this.ground].filter(Boolean).map(
+        set => set.update({...view, budget: view.budget / (surface && ground ? 2 : 1)}, quality.milliseconds));
     const sum = key => drawn.reduce((total, d) => total + d[key], 0);
-    this.drawn = {tiles: sum('tiles'), triangles: sum('triangles'), segments: sum('segments'), waiting: drawn.some(d => d.waiting)};
+    this.drawn = {
+      tiles: sum('tiles'),
+      triangles: sum('triangles'),
+      segments: sum('segments'),
+      waiting: drawn.some(d => d.waiting)
+    };
     this.renderer.render(this.scene, camera);
   }
 
@@ -186,7 +206,9 @@ export class Scene {
     let near = Infinity, far = 0;
     const forward = this.camera.getWorldDirection(new THREE.Vector3());
     for (let k = 0; k < 8; ++k) {
-      const d = new THREE.Vector3(...[0, 1, 2].map(i => (k >> i & 1 ? this.high : this.low)[i])).sub(this.camera.position).dot(forward);
+      const d = new THREE.Vector3(...[0, 1, 2].map(i => (k >> i & 1 ? this.high : this.low)[i]))
+                    .sub(this.camera.position)
+                    .dot(forward);
       near = Math.min(near, d);
       far = Math.max(far, d);
     }
@@ -208,7 +230,8 @@ export class Scene {
     this.request();
   }
 
-  // cut: null, or { line, ground }: what lies on the viewer's side of the plane is left out, of the ground too if asked.
+  // cut: null, or { line, ground }: what lies on the viewer's side of the plane is
+  // left out, of the ground too if asked.
   setCut(cut) {
     this.cutting = cut !== null;
     this.cut = cut;

@@ -23,9 +23,9 @@ export function rangeOver(line, low, high) {
 
 const label = contact => contact ? contact.touches[0].feature : -1;
 
-// Pieces of the surface's section between from and to, in order: { feature, kind, points: [s, z, s, z, ...] }; each has one patch,
-// all its points lie on that patch's true curve, and its ends are where the patch ends to within `tolerance`. Where patches follow
-// each other more closely than (to - from) / count, some may be missed.
+// Pieces of the surface's section between from and to, in order: { feature, kind, points: [s, z, s, z, ...] }; each has
+// one patch, all its points lie on that patch's true curve, and its ends are where the patch ends to within
+// `tolerance`. Where patches follow each other more closely than (to - from) / count, some may be missed.
 export function surfaceSection(envelope, line, from, to, count, tolerance) {
   const sample = s => {
     const contact = envelope.contact(...line.place(s));
@@ -35,8 +35,10 @@ export function surfaceSection(envelope, line, from, to, count, tolerance) {
   const add = p => {
     if (p.label < 0) return;
     const last = pieces[pieces.length - 1];
-    if (last && last.feature === p.label && !last.ended) last.points.push(p.s, p.z);
-    else pieces.push({feature: p.label, kind: p.kind, points: [p.s, p.z], ended: false});
+    if (last && last.feature === p.label && !last.ended)
+      last.points.push(p.s, p.z);
+    else
+      pieces.push({feature: p.label, kind: p.kind, points: [p.s, p.z], ended: false});
   };
   const end = () => {
     if (pieces.length > 0) pieces[pieces.length - 1].ended = true;

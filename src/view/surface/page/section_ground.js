@@ -11,8 +11,10 @@ export function groundSection(layer, line, from, to) {
     for (const x of [tile.low[0], tile.high[0]]) {
       for (const y of [tile.low[1], tile.high[1]]) {
         const d = off(x, y), s = (x - at[0]) * along[0] + (y - at[1]) * along[1];
-        low = Math.min(low, d); high = Math.max(high, d);
-        least = Math.min(least, s); most = Math.max(most, s);
+        low = Math.min(low, d);
+        high = Math.max(high, d);
+        least = Math.min(least, s);
+        most = Math.max(most, s);
       }
     }
     const slack = CLOSE * (Math.abs(low) + Math.abs(high));

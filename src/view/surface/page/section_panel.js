@@ -3,14 +3,19 @@
 import {strong} from './cut.js';
 import {niceStep, text} from './numbers.js';
 
-const MARGIN = {left: 58, right: 14, top: 12, bottom: 26};
+const MARGIN = {
+  left: 58,
+  right: 14,
+  top: 12,
+  bottom: 26
+};
 
 export class SectionPanel {
   constructor(canvas, cut, ball, page) {
     Object.assign(this, {canvas, cut, ball, page});
     this.context = canvas.getContext('2d');
-    this.view = null;          // { s, z, scale }: the middle, pixels of a unit
-    this.chosen = false;       // by hand: then it stays
+    this.view = null;     // { s, z, scale }: the middle, pixels of a unit
+    this.chosen = false;  // by hand: then it stays
     canvas.addEventListener('wheel', event => this.wheel(event), {passive: false});
     canvas.addEventListener('pointerdown', event => this.grab(event));
     canvas.addEventListener('dblclick', () => this.reset());
@@ -44,14 +49,18 @@ export class SectionPanel {
 
   // A dozen radii about the ball, or the whole.
   choose(range) {
-    const ball = this.ballPlace, width = this.width - MARGIN.left - MARGIN.right, height = this.height - MARGIN.top - MARGIN.bottom;
+    const ball = this.ballPlace, width = this.width - MARGIN.left - MARGIN.right,
+          height = this.height - MARGIN.top - MARGIN.bottom;
     if (ball && Math.abs(ball.off) < this.page.radius) {
       const scale = Math.min(width / 14, height / 4.4) / this.page.radius;
       this.view = {s: ball.s, z: ball.z - 0.4 * this.page.radius, scale};
     } else {
       const {low, high} = this.cut.scene;
-      this.view = {s: (range[0] + range[1]) / 2, z: (low[2] + high[2]) / 2,
-        scale: Math.min(width / (range[1] - range[0]), height / Math.max(high[2] - low[2], 1e-12) / 1.15)};
+      this.view = {
+        s: (range[0] + range[1]) / 2,
+        z: (low[2] + high[2]) / 2,
+        scale: Math.min(width / (range[1] - range[0]), height / Math.max(high[2] - low[2], 1e-12) / 1.15)
+      };
     }
   }
 
@@ -71,7 +80,8 @@ export class SectionPanel {
     const range = this.cut.range();
     if (!range) return;
     if (!this.chosen || !this.view) this.choose(range);
-    const from = Math.max(range[0], this.toS(MARGIN.left)), to = Math.min(range[1], this.toS(this.width - MARGIN.right));
+    const from = Math.max(range[0], this.toS(MARGIN.left)),
+          to = Math.min(range[1], this.toS(this.width - MARGIN.right));
     const colors = this.cut.scene.colors, style = getComputedStyle(document.documentElement);
     this.ink = style.getPropertyValue('--ink').trim();
     this.faint = style.getPropertyValue('--faint').trim();
@@ -81,7 +91,8 @@ export class SectionPanel {
     g.rect(MARGIN.left, MARGIN.top, this.width - MARGIN.left - MARGIN.right, this.height - MARGIN.top - MARGIN.bottom);
     g.clip();
     if (from < to) {
-      const count = this.quick ? 300 : Math.ceil(this.width - MARGIN.left), tolerance = this.quick ? 0.3 / this.view.scale : 1e-4 / this.view.scale;
+      const count = this.quick ? 300 : Math.ceil(this.width - MARGIN.left),
+            tolerance = this.quick ? 0.3 / this.view.scale : 1e-4 / this.view.scale;
       this.curves = this.cut.curves(from, to, count, tolerance);
       this.drawGround(g, colors);
       this.drawSurface(g, colors);
@@ -118,7 +129,8 @@ export class SectionPanel {
     g.stroke();
     g.textAlign = 'left';
     g.textBaseline = 'top';
-    const about = 'Section at true scale: height over the distance along the cut' + (this.page.unit ? `, ${this.page.unit}` : '');
+    const about =
+        'Section at true scale: height over the distance along the cut' + (this.page.unit ? `, ${this.page.unit}` : '');
     g.fillText(about, MARGIN.left + 8, MARGIN.top + 2, Math.max(10, this.width - MARGIN.left - MARGIN.right - 16));
   }
 
@@ -206,7 +218,9 @@ export class SectionPanel {
     event.preventDefault();
     if (!this.view) return;
     const box = this.canvas.getBoundingClientRect();
-    this.zoom(Math.exp(-Math.max(-200, Math.min(200, event.deltaY)) * 0.002), event.clientX - box.left, event.clientY - box.top);
+    this.zoom(
+        Math.exp(-Math.max(-200, Math.min(200, event.deltaY)) * 0.002), event.clientX - box.left,
+        event.clientY - box.top);
   }
 
   zoom(factor, x = this.width / 2, y = this.height / 2) {
@@ -240,19 +254,26 @@ export class SectionPanel {
       };
       const was = spread();
       this.fingers.set(moved.pointerId, [moved.clientX, moved.clientY]);
-      if (this.fingers.size > 1) this.zoom(spread() / Math.max(1, was));
-      else this.move(moved.clientX - before[0], moved.clientY - before[1]);
+      if (this.fingers.size > 1)
+        this.zoom(spread() / Math.max(1, was));
+      else
+        this.move(moved.clientX - before[0], moved.clientY - before[1]);
     };
     this.canvas.onpointerup = this.canvas.onpointercancel = left => this.fingers.delete(left.pointerId);
   }
 
   key(event) {
     const moves = {ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40]};
-    if (moves[event.key]) this.move(...moves[event.key]);
-    else if (event.key === '+' || event.key === '=') this.zoom(1.25);
-    else if (event.key === '-') this.zoom(0.8);
-    else if (event.key === '0') this.reset();
-    else return;
+    if (moves[event.key])
+      this.move(...moves[event.key]);
+    else if (event.key === '+' || event.key === '=')
+      this.zoom(1.25);
+    else if (event.key === '-')
+      this.zoom(0.8);
+    else if (event.key === '0')
+      this.reset();
+    else
+      return;
     event.preventDefault();
     event.stopPropagation();
   }

@@ -1,27 +1,30 @@
 // The tiles of a layer as meshes and lines in the scene, made when they are first wanted, a few milliseconds a frame.
 
 import * as THREE from 'three';
+
 import {leafGeometry, leafLines, middleOf, sampleGeometry} from './geometry.js';
 import {Lines} from './lines.js';
 import {chooseTiles, distanceTo} from './lod.js';
 
-const MOST_KEPT = 2500;      // meshes
-const FIRST_LINES = 6;       // pixels of a face at which its lines begin to show
-const FULL_LINES = 24;       // and at which they are as strong as they get
+const MOST_KEPT = 1200;  // meshes
+const FIRST_LINES = 6;   // pixels of a face at which its lines begin to show
+const FULL_LINES = 24;   // and at which they are as strong as they get
 
 // Side of a square as large as the faces of a tile are on average.
-function sizeOfFaces(tile) { return Math.sqrt((tile.high[0] - tile.low[0]) * (tile.high[1] - tile.low[1]) / tile.faces); }
+function sizeOfFaces(tile) {
+  return Math.sqrt((tile.high[0] - tile.low[0]) * (tile.high[1] - tile.low[1]) / tile.faces);
+}
 
 export class TileSet {
   // lineMaterials: by kind of line, from faint to strong.
   constructor(layer, radius, material, lineMaterials) {
     Object.assign(this, {layer, radius, material, lineMaterials});
     this.group = new THREE.Group();
-    this.meshes = new Map();   // by index of the tile: { mesh, lines, arrays, used }
+    this.meshes = new Map();  // by index of the tile: { mesh, lines, arrays, used }
     this.lineKinds = [true, true, true];
     this.chosen = [];
     this.meanFace = sizeOfFaces(layer.tiles[0]);
-    this.until = 0;            // no new meshes after this time
+    this.until = 0;  // no new meshes after this time
     this.clock = 0;
   }
 
@@ -84,16 +87,20 @@ export class TileSet {
   // Lines of the largest faces first.
   addLines(view, chosen) {
     let segments = 0;
-    const sized = chosen.filter(tile => tile.leaf).map(tile => {
-      // Between the tile's own and the mean one, so that neighbours do not differ too much.
-      const face = Math.sqrt(sizeOfFaces(tile) * this.meanFace);
-      return {tile, size: view.pixels * face / Math.max(distanceTo(tile, view.eye), face)};
-    }).filter(({size}) => size > FIRST_LINES).sort((a, b) => b.size - a.size);
+    const sized = chosen.filter(tile => tile.leaf)
+                      .map(tile => {
+                        // Between the tile's own and the mean one, so that neighbours do not differ too much.
+                        const face = Math.sqrt(sizeOfFaces(tile) * this.meanFace);
+                        return {tile, size: view.pixels * face / Math.max(distanceTo(tile, view.eye), face)};
+                      })
+                      .filter(({size}) => size > FIRST_LINES)
+                      .sort((a, b) => b.size - a.size);
     for (const {tile, size} of sized) {
       if (segments > view.lineBudget) break;
       this.linesOf(tile, this.meshes.get(tile.index)).forEach((lines, kind) => {
         if (!lines || !this.lineKinds[kind]) return;
-        const materials = this.lineMaterials[kind], share = Math.min(1, (size - FIRST_LINES) / (FULL_LINES - FIRST_LINES));
+        const materials = this.lineMaterials[kind],
+              share = Math.min(1, (size - FIRST_LINES) / (FULL_LINES - FIRST_LINES));
         lines.material = materials[Math.round(share * (materials.length - 1))];
         this.group.add(lines);
         segments += lines.geometry.index.count / 6;
