@@ -113,7 +113,7 @@ class SurfacePageTest(unittest.TestCase):
         self.browser.evaluate("kreplView.setView([5, 5], [0, -0.05, 1, 40])")
         self.settle()
         for place, wanted in (((5, 2), "sand"), ((5, 8), "sand"), ((5, 5), "blue"), ((-1, 5), "red"), ((-1, 2), "blue"),
-                              ((-1, -1), "red")):
+                              ((-0.6, -1.8), "red")):
             contact = self.browser.evaluate(f"kreplView.contact({place[0]}, {place[1]})")
             self.assertEqual(["red", "blue", "sand"][contact["touches"][0]["kind"]], wanted, place)
             self.assertEqual(hue(self.color_at("surface_roof", (*place, contact["height"]))), wanted, place)
