@@ -19,7 +19,7 @@ KREPL, DIRECTORY = sys.argv[1:3]
 PAGES = Pages(KREPL, DIRECTORY)
 DATA = os.path.join(os.environ.get("KREPL_DATA", ""), "dem")
 # Milliseconds between two pictures while the eye moves. The machine may be busy with other tests: a hand still sees it move.
-SLOWEST = 400
+SLOWEST = 200
 
 
 def raster(name, columns, rows, cell):

@@ -16,11 +16,23 @@ const FADING = [0.12, 0.25, 0.4, 0.6, 0.8, 1];  // lines of small faces are thin
 
 THREE.ColorManagement.enabled = false;
 
+function drawsInSoftware() {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const names = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software/i.test(name);
+}
+
 export class Scene {
   constructor(canvas, page, layers) {
     this.page = page;
     this.layers = layers;
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, powerPreference: 'high-performance'});
+    // Without graphics hardware, smooth edges take twice the time: then pictures at rest have twice the pixels a side
+    // instead.
+    const software = drawsInSoftware();
+    this.restScale = software && window.devicePixelRatio < 2 ? 2 : 1;
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: !software, powerPreference: 'high-performance'});
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.localClippingEnabled = true;
     this.scene = new THREE.Scene();
@@ -149,8 +161,7 @@ export class Scene {
     this.stale = false;
     if (moving && this.lastMoving) this.pace.took(now - this.lastMoving);
     this.lastMoving = moving ? now : 0;
-    // Software rendering cannot fill a large window often enough.
-    const scale = moving ? this.pace.scale : 1;
+    const scale = moving ? this.pace.scale : waited ? 1 : this.restScale;
     if (scale !== this.scale) this.setPixels(scale);
     for (const listener of this.listeners) listener(moving);
     const {resting} = this.pace;

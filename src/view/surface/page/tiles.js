@@ -90,7 +90,7 @@ export class TileSet {
     const sized = chosen.filter(tile => tile.leaf)
                       .map(tile => {
                         // Between the tile's own and the mean one, so that neighbours do not differ too much.
-                        const face = Math.sqrt(sizeOfFaces(tile) * this.meanFace);
+                        const face = sizeOfFaces(tile) ** 0.7 * this.meanFace ** 0.3;
                         return {tile, size: view.pixels * face / Math.max(distanceTo(tile, view.eye), face)};
                       })
                       .filter(({size}) => size > FIRST_LINES)
