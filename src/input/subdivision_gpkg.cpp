@@ -75,9 +75,9 @@ class GeoPackageReader {
     Status done = each("vertices", [&](const Row& row) { return vertex(row); });
     if (done) done = each("edges", [&](const Row& row) { return edge(row); });
     if (done) done = each("faces", [&](const Row& row) { return face(row); });
+    if (done) done = finish_features();
+    if (done) done = find_radius();
     if (!done) return done.error();
-    finish_features();
-    if (Status found = find_radius(); !found) return found.error();
     return std::move(file_);
   }
 
@@ -148,13 +148,14 @@ class GeoPackageReader {
     return std::monostate{};
   }
 
-  void finish_features() {
+  Status finish_features() {
+    const std::size_t most = file_.faces.size() + 2 * file_.edges.size();
     for (const auto& [number, feature] : features_) {
-      // A number that no face has is none that an edge needs.
-      if (number >= file_.features.size() + features_.size() * 4 + 1000) break;
-      file_.features.resize(number, File::Feature{{}, 1});
+      if (number >= most) return fault(fmt::format("a feature has the number {}", number), "layer faces");
+      file_.features.resize(number, File::Feature{{}, 1});  // what has no face is not asked for
       file_.features.push_back(feature);
     }
+    return std::monostate{};
   }
 
   static double distance(Point3 p, const File::Feature& feature) {
