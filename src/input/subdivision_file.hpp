@@ -63,4 +63,18 @@ Result<SubdivisionFile> read_subdivision(const std::string& path, const Context&
 /// Whether a file begins like a subdivision and not like GeoJSON.
 bool looks_like_subdivision(const std::string& path);
 
+/// The same from the layers `faces`, `edges` and `vertices` of a GeoPackage. Edges have the points of their chords,
+/// ends included: 2 or more. The radius is not in the file; it is the distance of the vertices from what the ball
+/// touches there, to within rounding. Features that have no face have no points.
+struct SubdivisionGeoPackage {
+  SubdivisionFile file;
+  std::string crs;  ///< name of the coordinate system; empty if unknown
+};
+/// Errors name layer and feature: a layer, a column or a geometry missing, items that are
+/// not numbered in their order; cancelled.
+Result<SubdivisionGeoPackage> read_subdivision_gpkg(const std::string& path, const Context& context = {});
+
+/// Whether a file has these layers.
+bool is_subdivision_gpkg(const std::string& path);
+
 }  // namespace krepl::input

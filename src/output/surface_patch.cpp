@@ -22,10 +22,10 @@ Point3 unit(Point3 v) {
 }  // namespace
 
 SurfacePatch::SurfacePatch(const Terrain& terrain, Terrain::Index feature, double radius)
-    : kind_(terrain.feature_kind(feature)),
-      radius_(radius),
-      corners_(terrain.corners(feature)),
-      at_(corners_.point[0]) {
+    : SurfacePatch(terrain.feature_kind(feature), terrain.corners(feature), radius) {}
+
+SurfacePatch::SurfacePatch(Kind kind, const Terrain::Corners& corners, double radius)
+    : kind_(kind), radius_(radius), corners_(corners), at_(corners_.point[0]) {
   if (kind_ == Kind::edge) direction_ = unit(minus(corners_.point[1], at_));
   if (kind_ == Kind::face) {
     direction_ = unit(cross(minus(corners_.point[1], at_), minus(corners_.point[2], at_)));

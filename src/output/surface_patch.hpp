@@ -9,6 +9,7 @@ namespace krepl::output {
 class SurfacePatch {
  public:
   SurfacePatch(const Terrain& terrain, Terrain::Index feature, double radius);
+  SurfacePatch(Terrain::FeatureKind kind, const Terrain::Corners& corners, double radius);
 
   Terrain::FeatureKind kind() const { return kind_; }
   /// Height over a place; beyond the patch's silhouette, that of the silhouette.

@@ -7,4 +7,10 @@ extern const char* const page_template;
 extern const char* const page_style;
 extern const char* const page_script;
 
+/// The same for surfaces, from src/view/surface/page, with three.js in the script. Without npm at hand when krepl was
+/// built the script is empty.
+extern const char* const surface_template;
+extern const char* const surface_style;
+extern const char* const surface_script;
+
 }  // namespace krepl::view

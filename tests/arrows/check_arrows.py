@@ -14,7 +14,7 @@ SOURCE_SUFFIXES = {".cpp", ".hpp", ".h", ".inc"}
 LIBRARIES = [
     ("Boost", r"boost/"), ("oneTBB", r"(tbb|oneapi)/"), ("GDAL", r"(gdal|ogr|cpl_|vrt)\w*\.h$"), ("fmt", r"fmt/"),
     ("nlohmann-json", r"nlohmann/"), ("CLI11", r"CLI/"), ("GEOS", r"geos(/|_c\.h|\.h)"), ("CGAL", r"CGAL/"),
-    ("Clipper", r"(polyclipping/)?clipper\.hpp"), ("OpenVDB", r"openvdb/"), ("benchmark", r"benchmark/"),
+    ("Clipper", r"(polyclipping/)?clipper\.hpp"), ("OpenVDB", r"openvdb/"), ("benchmark", r"benchmark/"), ("zlib", r"zlib\.h$"),
     ("rapidcheck", r"rapidcheck"), ("GTest", r"g(test|mock)/"),
 ]
 SYSTEM_DIRECTORIES = ("sys/", "linux/", "bits/", "ext/", "sanitizer/")

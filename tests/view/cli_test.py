@@ -54,6 +54,44 @@ class ViewTest(unittest.TestCase):
         self.assertEqual(data["title"], "Größe <1>")
         self.assertAlmostEqual(data["layers"][0]["area"], 3.141592653589793, 15)
 
+    def surface(self, name):
+        self.write("roof.off",
+                   "OFF\n6 4 0\n0 0 0\n9 0 0\n9 5 4\n0 5 4\n0 9 0\n9 9 0\n3 0 1 2\n3 0 2 3\n3 3 2 5\n3 3 5 4\n")
+        subprocess.run([KREPL, "terrain", self.path("roof.off"), self.path(name), "--radius", "2", "--quiet"], check=True)
+
+    def view_surface(self, *arguments):
+        run = self.view(*arguments)
+        if "was built without the page" in run.stderr:
+            self.skipTest(run.stderr)
+        return run
+
+    def test_surface_from_json_and_geopackage(self):
+        for name in ("roof.json", "roof.gpkg"):
+            self.surface(name)
+            run = self.view_surface(name, "-o", "page.html", "--input", "roof.off", "--max-error", "0.05")
+            self.assertEqual((run.returncode, run.stderr), (0, ""))
+            self.assertRegex(run.stdout, r"^page\.html: \d+ faces, \d+ triangles in \d+ tiles, [\d.]+ MB; open it in a browser$")
+            with open(self.path("page.html"), encoding="utf-8") as page:
+                data = json.loads(re.search(r'id="page">(.*?)</script>', page.read())[1])
+            self.assertAlmostEqual(data["radius"], 2, 12)
+            self.assertEqual([layer["role"] for layer in data["layers"]], ["surface", "terrain"])
+            self.assertEqual(data["faces"]["plane"], 4)
+            self.assertEqual(data["layers"][1]["triangles"], 4)
+
+    def test_options_of_the_other_kind(self):
+        self.surface("roof.json")
+        self.fails(2, "belong to zones", "roof.json", "--layer", "x")
+        self.fails(2, "belong to surfaces", "zone.wkt", "--max-error", "1")
+        self.fails(2, "--max-error", "roof.json", "--max-error", "-1")
+
+    def test_spoilt_surface(self):
+        self.surface("roof.json")
+        with open(self.path("roof.json"), encoding="utf-8") as source:
+            text = source.read()
+        half = text.index('"half_edges":[') + len('"half_edges":[\n[')
+        self.write("roof.json", text[:half] + "123456" + text[text.index(",", half):])
+        self.fails(1, "half_edges[0]", "roof.json")
+
     def test_standard_output_is_the_page_alone(self):
         run = self.view("zone.wkt", "-o", "-")
         self.assertEqual(run.returncode, 0)
