@@ -128,7 +128,7 @@ class Envelope {
   Plane support(Index patch, const BoxFrame& box) const;
   Plane support_of_steep(Index patch, const Plane& whole, const BoxFrame& box) const;
   template <int sign>
-  Real extreme(const Bound& bound, const BoxFrame& box, Real least_up = 0) const;
+  Real extreme(const Bound& bound, const BoxFrame& box) const;
   bool is_within(const Bound& bound, const BoxFrame& box) const;
   std::optional<Wall> wall_through(Index patch, const BoxFrame& box) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;

@@ -16,10 +16,10 @@ struct Envelope<Real>::BoxFrame {
 };
 
 /// The least value of a bound's function over a box (sign = 1), or the greatest one with its sign changed (sign = -1), a bit
-/// less for rounding. `least_up`: of the height over the rim that a cone's value depends on.
+/// less for rounding.
 template <class Real>
 template <int sign>
-inline Real Envelope<Real>::extreme(const Bound& b, const BoxFrame& f, Real least_up) const {
+inline Real Envelope<Real>::extreme(const Bound& b, const BoxFrame& f) const {
   const Real dx = f.mid.x - b.at.x, dy = f.mid.y - b.at.y;
   const Real slack = Precision<Real>::rounding * (absolute(dx) + absolute(dy) + f.hx + f.hy);
   if (b.type == BoundType::line) {
@@ -30,7 +30,7 @@ inline Real Envelope<Real>::extreme(const Bound& b, const BoxFrame& f, Real leas
   const Real far_x = absolute(dx) + f.hx, far_y = absolute(dy) + f.hy;
   const Real near = near_x * near_x + near_y * near_y, far = far_x * far_x + far_y * far_y;
   if (b.type == BoundType::disc) return (sign > 0 ? near - square : square - far) - 2 * slack * (far_x + far_y);
-  const Real lift = sign * b.c, up = std::max(least_up, square_root(std::max(Real(0), square - (lift >= 0 ? far : near))));
+  const Real lift = sign * b.c, up = square_root(std::max(Real(0), square - (lift >= 0 ? far : near)));
   return sign * (dx * b.nx + dy * b.ny) - (absolute(b.nx) * f.hx + absolute(b.ny) * f.hy + slack) + lift * up;
 }
 
@@ -46,18 +46,14 @@ RangeOf<Real> Envelope<Real>::bound_range(const Bound& b, const Box& box) const 
   return {extreme<1>(b, frame), -extreme<-1>(b, frame)};
 }
 
-/// Of a patch whose bounding rectangle meets the box.
-///
-/// Where a patch ends in a wall, what reaches into the box by less than matters is left out: two walls can be tangent,
-/// and a seam is tangent to the wall that it ends in.
+/// Of a patch whose bounding rectangle meets the box. However little of it reaches into the box: beside a wall that may be much
+/// taller than it is wide.
 template <class Real>
 inline bool Envelope<Real>::domain_meets(Index i, const BoxFrame& box) const {
   const Patch& f = patches_[i];
-  const Real least_up = f.has_rim && f.kind == FeatureKind::vertex ? least_up_ : 0;
   for (const Bound& b : patches_.bounds(i)) {
-    const Real slack = !b.rim ? 0 : b.type == BoundType::disc ? 2 * patches_.radius() * tolerance_ : tolerance_;
-    if (b.negative ? extreme<1>(b, box, least_up) >= -slack : extreme<-1>(b, box, least_up) > -slack) return false;
-    if (is_fine<Real> && b.type == BoundType::cone && least_up == 0 && lies_beyond(b, box)) return false;
+    if (b.negative ? extreme<1>(b, box) >= 0 : extreme<-1>(b, box) > 0) return false;
+    if (is_fine<Real> && b.type == BoundType::cone && lies_beyond(b, box)) return false;
   }
   return f.kind != FeatureKind::edge || !f.has_rim || axis_meets(f, box);
 }

@@ -42,9 +42,19 @@ void Envelope<Real>::drop_slivers(const Line& line, Index start, std::size_t fir
     if (along > 0x1p12 * tolerance_) return along;
     return along * std::max(sine(label_before(kept - 1), crossings[kept - 1]), sine(crossings[kept - 1].after, crossings[i]));
   };
+  // A patch that ends in a wall falls like a root there: what of it lies beside the wall is much taller than it is wide.
+  const auto is_tall = [&](std::size_t i) {  // between the last crossing kept and the i-th
+    const LineCrossing &a = crossings[i - 1], &b = crossings[i];
+    const bool ends_first = a.meeting == Meeting::rim;
+    if (a.after == none || ends_first == (b.meeting == Meeting::rim)) return false;
+    const Point wall = line.point(ends_first ? a.t : b.t);
+    if (rim_at(a.after, wall) == nullptr) return false;
+    const Index beyond = ends_first ? label_before(i - 1) : b.after;
+    return beyond == none || rim_height(a.after, wall) > border_height(beyond, wall);
+  };
   for (std::size_t i = first; i < crossings.size(); ++i) {
     crossings[kept] = crossings[i];
-    if (kept > first && width(kept) < tolerance_) {
+    if (kept > first && width(kept) < tolerance_ && !is_tall(kept)) {
       --kept;
       const Index before = label_before(kept), after = crossings[kept + 1].after;
       if (before == after) continue;
