@@ -178,7 +178,7 @@ class ChainWriter {
     if (!(chord > 0) || length > bent * chord) return false;
     if (edge_.kind == Surface::EdgeKind::seam) return chord < radius;  // a circle of that radius, projected from its centre
     const Point3 mid{(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
-    return distance(project_to_curve(terrain_, radius, edge_, mid), mid) < 0.05 * chord;
+    return distance(project_to_curve(terrain_, radius, edge_, mid, radius), mid) < 0.05 * chord;
   }
 
   /// Keeps a few points, if it takes any to tell which part of the curve is meant.
