@@ -153,7 +153,7 @@ class Envelope {
   GradientRange sphere_gradient(Point at, const Box& box, Real factor) const;
 
   PatchSet<Real>& patches_;
-  Real tolerance_, smallest_cell_, fine_cell_, smallest_stretch_, noise_, rim_width_, least_up_;
+  Real tolerance_, smallest_cell_, fine_cell_, smallest_stretch_, noise_, rim_width_, least_up_, thick_;
   bool far_;
   SurfaceCounters& counters_;
   Envelope<DoubleDouble>* finer_;
