@@ -518,7 +518,7 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p, const Box& box)
     Index patch = none;
     if (from.after == none || !sides_of_one_patch(from, to, box, patch) || patch != from.after) continue;
     const Bound *a = side_along(from), *b = side_along(to);
-    if (a == nullptr || b == nullptr) continue;
+    if (a == nullptr || b == nullptr || a == b) continue;
     for (const Point c : patches.corners(patch)) {
       const Real apart = norm(c.x - p.x, c.y - p.y);
       const auto ends = [&](const Bound& side) {
@@ -539,7 +539,7 @@ void Cells<Real>::add_vertex(Point at) {
     if (t.after == none) continue;
     // Near the rim heights fall like square roots; the rim's own height is as near to the surface.
     const bool ends = std::any_of(turns_.begin(), turns_.end(), [&](const Turn& wall) { return is_wall_of(wall, t.after); });
-    z = std::max(z, ends ? envelope_.rim_height(t.after, at) : envelope_.border_height(t.after, at));
+    z = std::max(z, ends ? envelope_.wall_height(t.after, at) : envelope_.border_height(t.after, at));
   }
   arms_.clear();
   for (const Turn& t : turns_) arms_.push_back(Link::crossing(t.crossing, t.side));

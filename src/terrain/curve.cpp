@@ -126,7 +126,9 @@ Point3 on_rim(const Contact<double>& c, double radius, Point3 near) {
   const double flat = std::hypot(c.direction.x, c.direction.y);
   const double along = (v.x * c.direction.x + v.y * c.direction.y) / (flat * flat);
   Point3 p = at + (along * c.direction + (sign * radius) * aside);
-  p.z = at.z + std::clamp(along, 0.0, c.length) * c.direction.z;  // a wall may begin a bit beyond the edge's end
+  // A wall may begin a bit beyond the edge's end: level there, or in line with it, as the surface has it.
+  const double level = at.z + std::clamp(along, 0.0, c.length) * c.direction.z, in_line = at.z + along * c.direction.z;
+  p.z = std::fabs(near.z - in_line) < std::fabs(near.z - level) ? in_line : level;
   return p;
 }
 

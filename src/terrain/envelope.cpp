@@ -89,6 +89,19 @@ Real Envelope<Real>::rim_height(Index i, Point p) const {
 }
 
 template <class Real>
+Real Envelope<Real>::wall_height(Index i, Point p) const {
+  const Patch& f = patches_[i];
+  if (f.kind != FeatureKind::edge) return rim_height(i, p);
+  const Real along = (p.x - f.at.x) * f.gx + (p.y - f.at.y) * f.gy;
+  if (along >= 0 && along <= f.length) return rim_height(i, p);
+  const BoundSource source = along < 0 ? BoundSource::start : BoundSource::end;
+  const auto bounds = patches_.bounds(i);
+  const auto end = std::find_if(bounds.begin(), bounds.end(), [&](const Bound& b) { return b.source == source; });
+  const bool is_round = end != bounds.end() && end->partner != none && patches_[end->partner].kind == FeatureKind::vertex;
+  return is_round ? rim_height(i, p) : axis_height(i, p);
+}
+
+template <class Real>
 const BoundOf<Real>* Envelope<Real>::rim_at(Index i, Point p) const {
   for (const Bound& b : patches_.bounds(i)) {
     if (!b.rim) continue;

@@ -159,7 +159,7 @@ class ChainWriter {
   void add_point(Index c, const Chain& chain) {
     const Point p = cells_.place(line_of_[c], cells_.crossings()[c]);
     const bool rim = chain.kind == Surface::EdgeKind::rim;
-    const double z = rim ? envelope_.rim_height(upper_, p) : envelope_.clamped_height(upper_, p);
+    const double z = rim ? envelope_.wall_height(upper_, p) : envelope_.clamped_height(upper_, p);
     points_.push_back({p.x, p.y, z});
   }
 
