@@ -84,7 +84,7 @@ bool Envelope<Real>::axis_meets(const Patch& f, const BoxFrame& box) const {
   const Real along = dx * f.gx + dy * f.gy, aside = absolute(dy * f.gx - dx * f.gy);
   const Real along_spread = absolute(f.gx) * box.hx + absolute(f.gy) * box.hy + noise_;
   const Real aside_spread = absolute(f.gy) * box.hx + absolute(f.gx) * box.hy;
-  const auto up = [&](Real b) { return std::max(least_up_, square_root(std::max(Real(0), patches_.square_radius() - b * b))); };
+  const auto up = [&](Real b) { return std::max(is_fine<Real> ? least_up_ : Real(0), square_root(std::max(Real(0), patches_.square_radius() - b * b))); };
   const Real low_up = up(aside + aside_spread), high_up = up(std::max(Real(0), aside - aside_spread));
   const Real shift = f.m * f.flat;
   return along + along_spread + shift * (shift > 0 ? high_up : low_up) >= 0 &&
