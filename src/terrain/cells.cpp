@@ -572,7 +572,7 @@ void Cells<Real>::add_vertex(Point at) {
     if (t.after == none) continue;
     // Near the rim heights fall like square roots; the rim's own height is as near to the surface.
     const bool ends = std::any_of(turns_.begin(), turns_.end(), [&](const Turn& wall) { return is_wall_of(wall, t.after); });
-    z = std::max(z, ends ? envelope_.rim_height(t.after, at) : envelope_.border_height(t.after, at));
+    z = std::max(z, ends ? envelope_.wall_height(t.after, at) : envelope_.border_height(t.after, at));
   }
   arms_.clear();
   for (const Turn& t : turns_) arms_.push_back(Link::crossing(t.crossing, t.side));

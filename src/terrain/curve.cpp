@@ -70,26 +70,33 @@ Offset<Real> offset(const Contact<Real>& c, double radius, Vector<Real> p) {
   return {l - radius, l > 0 ? (1 / l) * away : Vector<Real>{0, 0, 1}};
 }
 
-/// Newton's method towards the curve where both distances are R, by the shortest way. `sine`, if wanted: of the angle
-/// between the two surfaces there.
+/// Newton's method towards the curve where both distances are R, by the shortest way: along the mean of the two normals, and along
+/// their difference as far as rounding lets that be told and no farther than `reach`. Where the surfaces all but touch along a
+/// stretch, the curve is known across it no better than that. `sine`, if wanted: of the angle between the two surfaces there.
 template <class Real>
-Point3 project_to_valley(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 near,
+Point3 project_to_valley(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 near, double reach,
                          double* sine = nullptr) {
   const auto a = contact_of<Real>(terrain, edge.feature[0]), b = contact_of<Real>(terrain, edge.feature[1]);
   const Real precision = 2 * std::numeric_limits<Real>::epsilon();
-  Vector<Real> p(near);
-  for (int i = 0; i < 20; ++i) {
-    const Offset<Real> f = offset(a, radius, p), g = offset(b, radius, p);
-    const Vector<Real> normal = cross(f.gradient, g.gradient);
-    const Real fg = dot(f.gradient, g.gradient), det = dot(normal, normal);
-    if (sine != nullptr) *sine = double(std::sqrt(det));
-    if (!(det > 1e-24)) break;
-    const Real s = (f.value - fg * g.value) / det, t = (g.value - fg * f.value) / det;
-    const Vector<Real> step = (-s) * f.gradient + (-t) * g.gradient;
-    p = p + step;
-    if (length(step) <= precision * (std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z))) break;
-  }
-  return length(p - Vector<Real>(near)) < radius ? Point3(p) : near;
+  const auto solve = [&](bool aside) {
+    Vector<Real> p(near);
+    for (int i = 0; i < 20; ++i) {
+      const Offset<Real> f = offset(a, radius, p), g = offset(b, radius, p);
+      const Vector<Real> mean = f.gradient + g.gradient, apart = f.gradient - g.gradient;
+      const Real square = dot(apart, apart), difference = f.value - g.value;
+      if (sine != nullptr) *sine = double(std::sqrt(square * dot(mean, mean)) / 2);
+      const Real size = std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
+      Vector<Real> step = -(f.value + g.value) / dot(mean, mean) * mean;
+      if (aside && std::fabs(difference) > 8 * precision * (size + Real(radius))) step = step + (-difference / square) * apart;
+      p = p + step;
+      if (!(length(step) > precision * size)) break;
+    }
+    return p;
+  };
+  const auto is_near = [&](Vector<Real> p) { return length(p - Vector<Real>(near)) < reach; };
+  Vector<Real> p = solve(true);
+  if (!is_near(p)) p = solve(false);
+  return is_near(p) ? Point3(p) : near;
 }
 
 /// The circle along which an edge's cylinder meets the sphere about one of its ends, or another cylinder in line with it.
@@ -119,7 +126,9 @@ Point3 on_rim(const Contact<double>& c, double radius, Point3 near) {
   const double flat = std::hypot(c.direction.x, c.direction.y);
   const double along = (v.x * c.direction.x + v.y * c.direction.y) / (flat * flat);
   Point3 p = at + (along * c.direction + (sign * radius) * aside);
-  p.z = at.z + std::clamp(along, 0.0, c.length) * c.direction.z;  // a wall may begin a bit beyond the edge's end
+  // A wall may begin a bit beyond the edge's end: level there, or in line with it, as the surface has it.
+  const double level = at.z + std::clamp(along, 0.0, c.length) * c.direction.z, in_line = at.z + along * c.direction.z;
+  p.z = std::fabs(near.z - in_line) < std::fabs(near.z - level) ? in_line : level;
   return p;
 }
 
@@ -148,7 +157,7 @@ Curve curve_kind(const Terrain& terrain, const Surface::Edge& edge) {
   return meet ? Curve::ellipse : Curve::quartic;
 }
 
-Point3 project_to_curve(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 near) {
+Point3 project_to_curve(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 near, double reach) {
   if (edge.feature[0] == Surface::none || edge.feature[1] == Surface::none) {
     const Surface::Index upper = edge.feature[0] == Surface::none ? edge.feature[1] : edge.feature[0];
     return upper == Surface::none ? near : on_rim(contact_of(terrain, upper), radius, near);
@@ -156,10 +165,10 @@ Point3 project_to_curve(const Terrain& terrain, double radius, const Surface::Ed
   if (edge.kind == Surface::EdgeKind::seam && edge.curve == Curve::circle) return on_end_circle(terrain, radius, edge, near);
   if (edge.kind == Surface::EdgeKind::seam) return near;  // a straight line between its ends
   double sine = 1;
-  const Point3 p = project_to_valley<double>(terrain, radius, edge, near, &sine);
+  const Point3 p = project_to_valley<double>(terrain, radius, edge, near, reach, &sine);
   // Where the surfaces are nearly tangent their distances have to be known better than doubles tell.
   constexpr double nearly_tangent = 1e-4;
-  return sine < nearly_tangent ? project_to_valley<long double>(terrain, radius, edge, near) : p;
+  return sine < nearly_tangent ? project_to_valley<long double>(terrain, radius, edge, near, reach) : p;
 }
 
 bool is_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 p, double tolerance) {

@@ -16,6 +16,7 @@ Envelope<Real>::Envelope(PatchSet<Real>& patches, double scale, SurfaceCounters&
       noise_(Precision<Real>::noise * scale),
       rim_width_(2 * Precision<double>::tolerance * scale),
       least_up_(square_root(2 * patches.radius() * tolerance_)),
+      thick_(0x1p-34 * scale),
       far_(patches.radius() >= scale),
       counters_(counters),
       finer_(finer) {}
@@ -85,6 +86,19 @@ Real Envelope<Real>::rim_height(Index i, Point p) const {
     return patches_.extended_height(i, p);  // nearly vertical, the cylinder beside it too thin to show
   if (f.kind == FeatureKind::vertex) return f.z;
   return f.z + f.m * std::clamp((p.x - f.at.x) * f.gx + (p.y - f.at.y) * f.gy, Real(0), f.length);
+}
+
+template <class Real>
+Real Envelope<Real>::wall_height(Index i, Point p) const {
+  const Patch& f = patches_[i];
+  if (f.kind != FeatureKind::edge) return rim_height(i, p);
+  const Real along = (p.x - f.at.x) * f.gx + (p.y - f.at.y) * f.gy;
+  if (along >= 0 && along <= f.length) return rim_height(i, p);
+  const BoundSource source = along < 0 ? BoundSource::start : BoundSource::end;
+  const auto bounds = patches_.bounds(i);
+  const auto end = std::find_if(bounds.begin(), bounds.end(), [&](const Bound& b) { return b.source == source; });
+  const bool is_round = end != bounds.end() && end->partner != none && patches_[end->partner].kind == FeatureKind::vertex;
+  return is_round ? rim_height(i, p) : axis_height(i, p);
 }
 
 template <class Real>

@@ -91,6 +91,9 @@ class Envelope {
   Range upright_derivative_range(const Bound& cone, const Box& box, Gradient direction) const;
   /// Height at which a patch ends in a wall: of the points that a ball touches with a horizontal normal.
   Real rim_height(Index patch, Point p) const;
+  /// The same as written. Beyond an end of an edge by less than is told apart the wall is that of the next edge, in nearly the same
+  /// line, unless a sphere is between them.
+  Real wall_height(Index patch, Point p) const;
   Gradient rim_gradient(Index patch) const;
   /// Gradient of a bound's function; steep but finite near the rim.
   Gradient bound_gradient(const Bound& bound, Point p) const;
@@ -164,7 +167,7 @@ class Envelope {
   GradientRange sphere_gradient(Point at, const Box& box, Real factor) const;
 
   PatchSet<Real>& patches_;
-  Real tolerance_, smallest_cell_, fine_cell_, smallest_stretch_, noise_, rim_width_, least_up_;
+  Real tolerance_, smallest_cell_, fine_cell_, smallest_stretch_, noise_, rim_width_, least_up_, thick_;
   bool far_;
   SurfaceCounters& counters_;
   Envelope<DoubleDouble>* finer_;

@@ -46,18 +46,14 @@ RangeOf<Real> Envelope<Real>::bound_range(const Bound& b, const Box& box) const 
   return {extreme<1>(b, frame), -extreme<-1>(b, frame)};
 }
 
-/// Of a patch whose bounding rectangle meets the box.
-///
-/// Where a patch ends in a wall, what reaches into the box by less than matters is left out: two walls can be tangent,
-/// and a seam is tangent to the wall that it ends in.
+/// Of a patch whose bounding rectangle meets the box. However little of it reaches into the box: beside a wall that may be much
+/// taller than it is wide.
 template <class Real>
 inline bool Envelope<Real>::domain_meets(Index i, const BoxFrame& box) const {
   const Patch& f = patches_[i];
-  const Real least_up = f.has_rim && f.kind == FeatureKind::vertex ? least_up_ : 0;
   for (const Bound& b : patches_.bounds(i)) {
-    const Real slack = !b.rim ? 0 : b.type == BoundType::disc ? 2 * patches_.radius() * tolerance_ : tolerance_;
-    if (b.negative ? extreme<1>(b, box, least_up) >= -slack : extreme<-1>(b, box, least_up) > -slack) return false;
-    if (is_fine<Real> && b.type == BoundType::cone && least_up == 0 && lies_beyond(b, box)) return false;
+    if (b.negative ? extreme<1>(b, box) >= 0 : extreme<-1>(b, box) > 0) return false;
+    if (is_fine<Real> && b.type == BoundType::cone && lies_beyond(b, box)) return false;
   }
   return f.kind != FeatureKind::edge || !f.has_rim || axis_meets(f, box);
 }
@@ -88,7 +84,7 @@ bool Envelope<Real>::axis_meets(const Patch& f, const BoxFrame& box) const {
   const Real along = dx * f.gx + dy * f.gy, aside = absolute(dy * f.gx - dx * f.gy);
   const Real along_spread = absolute(f.gx) * box.hx + absolute(f.gy) * box.hy + noise_;
   const Real aside_spread = absolute(f.gy) * box.hx + absolute(f.gx) * box.hy;
-  const auto up = [&](Real b) { return std::max(least_up_, square_root(std::max(Real(0), patches_.square_radius() - b * b))); };
+  const auto up = [&](Real b) { return std::max(is_fine<Real> ? least_up_ : Real(0), square_root(std::max(Real(0), patches_.square_radius() - b * b))); };
   const Real low_up = up(aside + aside_spread), high_up = up(std::max(Real(0), aside - aside_spread));
   const Real shift = f.m * f.flat;
   return along + along_spread + shift * (shift > 0 ? high_up : low_up) >= 0 &&

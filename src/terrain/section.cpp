@@ -31,20 +31,41 @@ void Envelope<Real>::drop_slivers(const Line& line, Index start, std::size_t fir
                                   std::vector<LineCrossing>& crossings) const {
   std::size_t kept = first;
   const auto label_before = [&](std::size_t i) { return i == first ? start : crossings[i - 1].after; };
-  // A line may run aslant through what is thin.
-  const auto sine = [&](Index before, const LineCrossing& c) {  // of the angle between the line and the curve
+  const auto unit_across = [&](Index before, const LineCrossing& c) -> Gradient {
     const Gradient g = gradient_across(before, c.after, c.meeting, line.point(c.t));
-    const Real size = norm(g.x, g.y);
-    return size > 0 ? absolute(line.vertical ? g.y : g.x) / size : Real(1);
+    const Real length = size(g);
+    return length > 0 ? Gradient{g.x / length, g.y / length} : Gradient{0, 0};
   };
-  const auto width = [&](std::size_t i) {  // between the last crossing kept and the i-th
-    const Real along = crossings[i].t - crossings[kept - 1].t;
-    if (along > 0x1p12 * tolerance_) return along;
-    return along * std::max(sine(label_before(kept - 1), crossings[kept - 1]), sine(crossings[kept - 1].after, crossings[i]));
+  // What is between the last crossing kept and the i-th. A line may run aslant through what is thin, and what is steep is thicker
+  // on the surface than it is wide in the plane.
+  const auto is_thin = [&](std::size_t i) {
+    const LineCrossing &a = crossings[kept - 1], &b = crossings[i];
+    const Real along = b.t - a.t;
+    if (along > 0x1p12 * tolerance_) return false;
+    const Gradient slope = a.after == none ? Gradient{0, 0} : patches_.gradient(a.after, line.point((a.t + b.t) / 2));
+    for (const Gradient n : {unit_across(label_before(kept - 1), a), unit_across(a.after, b)}) {
+      if (n.x == 0 && n.y == 0) {
+        if (along >= tolerance_) return false;
+        continue;
+      }
+      const Real width = along * absolute(line.vertical ? n.y : n.x), rise = absolute(slope.x * n.x + slope.y * n.y);
+      if (width >= tolerance_ || width * rise >= thick_) return false;
+    }
+    return true;
+  };
+  // A patch that ends in a wall falls like a root there: what of it lies beside the wall is much taller than it is wide.
+  const auto is_tall = [&](std::size_t i) {  // between the last crossing kept and the i-th
+    const LineCrossing &a = crossings[i - 1], &b = crossings[i];
+    const bool ends_first = a.meeting == Meeting::rim;
+    if (a.after == none || ends_first == (b.meeting == Meeting::rim)) return false;
+    const Point wall = line.point(ends_first ? a.t : b.t);
+    if (rim_at(a.after, wall) == nullptr) return false;
+    const Index beyond = ends_first ? label_before(i - 1) : b.after;
+    return beyond == none || rim_height(a.after, wall) > border_height(beyond, wall);
   };
   for (std::size_t i = first; i < crossings.size(); ++i) {
     crossings[kept] = crossings[i];
-    if (kept > first && width(kept) < tolerance_) {
+    if (kept > first && is_thin(kept) && !is_tall(kept)) {
       --kept;
       const Index before = label_before(kept), after = crossings[kept + 1].after;
       if (before == after) continue;

@@ -66,7 +66,7 @@ bool Cells<Real>::is_thin(Index patch, Index a, Index b, const Box& box, Real wi
       sum.ny = s * f.ny + t * g.ny;
       sum.c = s * f.c + t * g.c;
       const Real slope = std::min(absolute(f.c), absolute(g.c)) * steepness - 1;
-      if (envelope_.bound_range(sum, box).low >= -width * std::max(Real(1), slope)) return true;
+      if (envelope_.bound_range(sum, box).low >= -width * std::clamp<Real>(slope, 1, 64)) return true;
     }
   }
   return false;

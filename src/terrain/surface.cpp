@@ -34,7 +34,7 @@ std::vector<Point3> Surface::curve(Index e, int points) const {
   for (Point3* end : {&base.front(), &base.back()}) {
     // On steep patches heights alone say little.
     if (!level && terrain::is_on_edge(*terrain_, radius_, edge, *end, 0x1p-34 * scale)) continue;
-    const double z = rim ? terrain::project_to_curve(*terrain_, radius_, edge, *end).z
+    const double z = rim ? terrain::project_to_curve(*terrain_, radius_, edge, *end, radius_).z
                          : terrain::height_on_edge(*terrain_, radius_, edge, *end);
     if (std::abs(z - end->z) > 0x1p-44 * scale) end->z = z;
   }
@@ -56,8 +56,8 @@ std::vector<Point3> Surface::curve(Index e, int points) const {
     const double t = length > 0 ? std::clamp((wanted - passed) / length, 0.0, 1.0) : 0.0;
     const Point3 p = base[piece - 1], q = base[piece];
     const Point3 near{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)};
-    Point3 on_curve = edge.curve == Curve::line ? near : terrain::project_to_curve(*terrain_, radius_, edge, near);
-    if (distance(on_curve, near) > whole) on_curve = near;  // too short for its surfaces to be told apart
+    Point3 on_curve = edge.curve == Curve::line ? near : terrain::project_to_curve(*terrain_, radius_, edge, near, whole);
+    if (distance(on_curve, near) > whole) on_curve = near;
     curve.push_back(on_curve);
   }
   curve.push_back(base.back());

@@ -159,7 +159,7 @@ class ChainWriter {
   void add_point(Index c, const Chain& chain) {
     const Point p = cells_.place(line_of_[c], cells_.crossings()[c]);
     const bool rim = chain.kind == Surface::EdgeKind::rim;
-    const double z = rim ? envelope_.rim_height(upper_, p) : envelope_.clamped_height(upper_, p);
+    const double z = rim ? envelope_.wall_height(upper_, p) : envelope_.clamped_height(upper_, p);
     points_.push_back({p.x, p.y, z});
   }
 
@@ -178,7 +178,7 @@ class ChainWriter {
     if (!(chord > 0) || length > bent * chord) return false;
     if (edge_.kind == Surface::EdgeKind::seam) return chord < radius;  // a circle of that radius, projected from its centre
     const Point3 mid{(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
-    return distance(project_to_curve(terrain_, radius, edge_, mid), mid) < 0.05 * chord;
+    return distance(project_to_curve(terrain_, radius, edge_, mid, radius), mid) < 0.05 * chord;
   }
 
   /// Keeps a few points, if it takes any to tell which part of the curve is meant.

@@ -97,8 +97,9 @@ class EdgeChecker {
   static double in_plan(const Shape& shape, const Space<T>& up) {
     if (shape.count != 2) return 1;
     const Vec3 d = Vec3(shape.at[1]) - Vec3(shape.at[0]);
-    const double rise = d.z * double(length(up)), level = double(up.z) * length(d);
-    return level > 0 ? level / std::hypot(level, rise) : 1;
+    // A ball that touches with its equator is above or below that by rounding alone.
+    const double rise = d.z * double(length(up)), level = std::abs(double(up.z)) * length(d);
+    return level > 0 || rise != 0 ? level / std::hypot(level, rise) : 1;
   }
 
   /// Along a seam both features are touched at the same place, along a rim the ball touches with its equator. Distances
