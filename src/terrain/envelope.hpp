@@ -163,7 +163,7 @@ class Envelope {
   bool domain_covers(Index patch, const BoxFrame& box) const;
   bool domain_meets(Index patch, const BoxFrame& box) const;
   bool lies_beyond(const Bound& bound, const BoxFrame& box) const;
-  bool axis_meets(const Patch& edge, const BoxFrame& box) const;
+  bool axis_meets(Index edge, const BoxFrame& box) const;
   GradientRange sphere_gradient(Point at, const Box& box, Real factor) const;
 
   PatchSet<Real>& patches_;

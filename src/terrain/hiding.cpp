@@ -55,7 +55,7 @@ inline bool Envelope<Real>::domain_meets(Index i, const BoxFrame& box) const {
     if (b.negative ? extreme<1>(b, box) >= 0 : extreme<-1>(b, box) > 0) return false;
     if (is_fine<Real> && b.type == BoundType::cone && lies_beyond(b, box)) return false;
   }
-  return f.kind != FeatureKind::edge || !f.has_rim || axis_meets(f, box);
+  return f.kind != FeatureKind::edge || !f.has_rim || axis_meets(i, box);
 }
 
 /// True if all of a small box lies beyond a cone, by tangent planes: they tell more than bounds of each term where these nearly
@@ -78,17 +78,27 @@ bool Envelope<Real>::lies_beyond(const Bound& b, const BoxFrame& f) const {
 }
 
 /// True if the axis of an edge has places that a ball in the box may touch: the same for its ends.
+///
+/// Where a sphere goes on beyond an end, the seam is tangent to the wall, and what is closer above the wall than is told apart may as
+/// well be the sphere's. Where none does, the next edge may be in nearly the same line, and what is left out would be missing.
 template <class Real>
-bool Envelope<Real>::axis_meets(const Patch& f, const BoxFrame& box) const {
+bool Envelope<Real>::axis_meets(Index i, const BoxFrame& box) const {
+  const Patch& f = patches_[i];
   const Real dx = box.mid.x - f.at.x, dy = box.mid.y - f.at.y;
   const Real along = dx * f.gx + dy * f.gy, aside = absolute(dy * f.gx - dx * f.gy);
   const Real along_spread = absolute(f.gx) * box.hx + absolute(f.gy) * box.hy + noise_;
   const Real aside_spread = absolute(f.gy) * box.hx + absolute(f.gx) * box.hy;
-  const auto up = [&](Real b) { return std::max(is_fine<Real> ? least_up_ : Real(0), square_root(std::max(Real(0), patches_.square_radius() - b * b))); };
+  const auto up = [&](Real b) { return square_root(std::max(Real(0), patches_.square_radius() - b * b)); };
   const Real low_up = up(aside + aside_spread), high_up = up(std::max(Real(0), aside - aside_spread));
-  const Real shift = f.m * f.flat;
-  return along + along_spread + shift * (shift > 0 ? high_up : low_up) >= 0 &&
-         along - along_spread + shift * (shift > 0 ? low_up : high_up) <= f.length;
+  const auto least = [&](BoundSource end) {
+    for (const Bound& b : patches_.bounds(i)) {
+      if (b.source == end && b.partner != none && patches_[b.partner].kind == FeatureKind::vertex) return least_up_;
+    }
+    return is_fine<Real> ? least_up_ : Real(0);
+  };
+  const Real shift = f.m * f.flat, at_start = least(BoundSource::start), at_end = least(BoundSource::end);
+  return along + along_spread + shift * std::max(at_start, shift > 0 ? high_up : low_up) >= 0 &&
+         along - along_spread + shift * std::max(at_end, shift > 0 ? low_up : high_up) <= f.length;
 }
 
 template <class Real>
@@ -223,7 +233,7 @@ bool Envelope<Real>::ends_before(Index i, const Bound& wall, const Box& box) con
       const Point m = box.middle();
       const Real excess = s * b.value(m, 0) - w * wall.value(m, 0);
       const Real spread = absolute(s * b.nx - w * wall.nx) * box.half_x() + absolute(s * b.ny - w * wall.ny) * box.half_y();
-      if (excess + spread <= tolerance) return true;
+      if (excess + spread <= noise_) return true;
     }
   }
   if (wall.type == BoundType::disc) {
@@ -281,6 +291,8 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
   // Where the lower one is nearer to its wall all over the box, it falls the faster the nearer: the least slope is enough.
   const bool inwards = std::all_of(apart, apart + 4, [&](Real e) { return beta > 0 ? e >= 0 : e <= 0; });
   Real slope[2] = {0, 0};
+  // However little the lower one's wall is beyond the upper one's, what is beyond may be tall.
+  if (!is_fine<Real> && !inwards && widest > noise_ && widest <= tolerance_ / 4 && far + widest >= patches_.radius()) return false;
   if (widest > tolerance_ / 4) {
     const Real low = beta - spread - widest, high = beta + spread + widest;
     if (std::max(-low, high) < patches_.radius()) {
