@@ -11,7 +11,7 @@ Envelope<Real>::Envelope(PatchSet<Real>& patches, double scale, SurfaceCounters&
     : patches_(patches),
       tolerance_(Precision<Real>::tolerance * scale),
       smallest_cell_(Precision<Real>::smallest_cell * scale),
-      fine_cell_((patches.radius() >= scale ? 0x1p-40 : 0x1p-20) * scale),
+      fine_cell_((patches.radius() >= scale ? 0x1p-28 : 0x1p-20) * scale),
       smallest_stretch_(Precision<Real>::smallest_stretch * scale),
       noise_(Precision<Real>::noise * scale),
       rim_width_(2 * Precision<double>::tolerance * scale),

@@ -1,5 +1,8 @@
 #include "terrain/patches.hpp"
 
+#include <tuple>
+#include <utility>
+
 namespace krepl::terrain {
 
 using FeatureKind = Terrain::FeatureKind;
@@ -52,6 +55,32 @@ Vector3<Real> outward(const EdgeFrame& e, bool at_a) {
 template <class Real>
 PointOf<Real> place_of(Point3 p) {
   return {p.x, p.y};
+}
+
+/// Triangles whose height is less than this part of a side: rounding makes much of their normals, which are computed with twice the
+/// digits. What bounds their patches from different sides would not fit together else.
+constexpr double thin = 0x1p-10;
+
+/// Where a place lies as seen along the edge from a to b: to the left, and up.
+std::pair<double, double> across_in_full(Point3 a, Point3 b, Point3 place) {
+  using Real = DoubleDouble;
+  const Vector3<Real> d = vector<Real>(b) - vector<Real>(a), w = vector<Real>(place) - vector<Real>(a);
+  const Real flat = norm(d.x, d.y), gx = d.x / flat, gy = d.y / flat, m = d.z / flat;
+  return {double(w.y * gx - w.x * gy), double((w.z - m * (w.x * gx + w.y * gy)) / square_root(1 + m * m))};
+}
+
+/// The unit normal of a triangle.
+template <class Real>
+Vector3<Real> normal_of(Point3 a, Point3 b, Point3 c) {
+  const Vector3<Real> u = vector<Real>(b) - vector<Real>(a), v = vector<Real>(c) - vector<Real>(a), n = cross(u, v);
+  const Real size = length(n);
+  if constexpr (!is_fine<Real>) {
+    if (size < thin * (length(u) * length(v))) {
+      const Vector3<DoubleDouble> full = normal_of<DoubleDouble>(a, b, c);
+      return {double(full.x), double(full.y), double(full.z)};
+    }
+  }
+  return {n.x / size, n.y / size, n.z / size};
 }
 
 }  // namespace
@@ -285,11 +314,16 @@ typename PatchSet<Real>::Limit PatchSet<Real>::limit(Index i, Index f) const {
   const auto& edge = window_->edges()[i];
   const auto& face = window_->faces()[f];
   const EdgeFrame& e = edges_[i];
+  const Point3 a = window_->vertices()[edge.a].at, b = window_->vertices()[edge.b].at;
   const Index third = face.vertex[0] + face.vertex[1] + face.vertex[2] - edge.a - edge.b;
-  const Vector3<Real> w = vector<Real>(window_->vertices()[third].at) - vector<Real>(window_->vertices()[edge.a].at);
+  const Point3 at = window_->vertices()[third].at;
+  const Vector3<Real> w = vector<Real>(at) - vector<Real>(a);
   const Real along = w.x * e.gx + w.y * e.gy;
-  const Real aside = face.vertical ? Real(0) : w.y * e.gx - w.x * e.gy;
-  const Real up = (w.z - e.m * along) / e.q;
+  Real aside = w.y * e.gx - w.x * e.gy, up = (w.z - e.m * along) / e.q;
+  if constexpr (!is_fine<Real>) {
+    if (norm(aside, up) < thin * length(w)) std::tie(aside, up) = across_in_full(a, b, at);
+  }
+  if (face.vertical) aside = 0;
   if (aside == 0) return {0, 0, Limit::Side::upright, up > 0};
   const Real size = norm(aside, up);
   return {(aside > 0 ? -up : up) / size, absolute(aside) / size, aside > 0 ? Limit::Side::left : Limit::Side::right, false};
@@ -533,10 +567,9 @@ void PatchSet<Real>::add_face(Index f) {
 template <class Real>
 void PatchSet<Real>::set_face(Patch& p) {
   const auto& face = window_->faces()[p.item];
-  const auto at = [&](int i) { return vector<Real>(window_->vertices()[face.vertex[i]].at); };
-  const Vector3<Real> normal = cross(at(1) - at(0), at(2) - at(0));
-  const Real size = length(normal);
-  const Real nx = normal.x / size, ny = normal.y / size, nz = normal.z / size;
+  const auto point = [&](int i) { return window_->vertices()[face.vertex[i]].at; };
+  const auto at = [&](int i) { return vector<Real>(point(i)); };
+  const auto [nx, ny, nz] = normal_of<Real>(point(0), point(1), point(2));
   p.at = {at(0).x + radius_ * nx, at(0).y + radius_ * ny};
   p.z = at(0).z + radius_ * nz;
   p.gx = -nx / nz;
