@@ -2,7 +2,7 @@
 
 _krepl() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  local verbs="buffer profile terrain height verify view" verb= word
+  local verbs="buffer profile terrain height info verify view" verb= word
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case " $verbs " in *" $word "*) verb=$word; break ;; esac
   done
@@ -14,12 +14,13 @@ _krepl() {
   case $previous in
     --format)
       local formats="gpkg fgb wkt wkb geojson shp svg dxf"
-      [[ $verb == terrain ]] && formats="json gpkg tif stl ply glb png"
+      [[ $verb == terrain ]] && formats="json gpkg step tif stl ply glb png"
       mapfile -t COMPREPLY < <(compgen -W "$formats" -- "$current"); return ;;
     --engine)
       local engines="auto intervals"
       [[ $verb == terrain ]] && engines="auto"
       mapfile -t COMPREPLY < <(compgen -W "$engines" -- "$current"); return ;;
+    --unit) mapfile -t COMPREPLY < <(compgen -W "mm cm m km in ft" -- "$current"); return ;;
     --split) mapfile -t COMPREPLY < <(compgen -W "rising falling shorter" -- "$current"); return ;;
     --to-crs) mapfile -t COMPREPLY < <(compgen -W "auto EPSG:" -- "$current"); return ;;
     --crs) mapfile -t COMPREPLY < <(compgen -W "EPSG:" -- "$current"); return ;;

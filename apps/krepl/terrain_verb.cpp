@@ -17,8 +17,9 @@ namespace {
 
 struct TerrainVerbOptions {
   TerrainOptions terrain;
-  std::string output, radius, format, engine = "auto", max_error, cell;
+  std::string output, radius, format, engine = "auto", max_error, cell, unit;
   int curve_points = 0, width = 0;
+  bool solid = false;
 };
 
 /// What the options mean once they are checked; made before anything is read.
@@ -48,6 +49,8 @@ Status check_meaning(const TerrainVerbOptions& options, const output::SurfaceFor
     return refuse("--max-error", "stl, ply, glb and gpkg");
   if (!options.cell.empty() && format.kind != Kind::tif) return refuse("--cell", "tif");
   if (options.width != 0 && format.kind != Kind::png) return refuse("--width", "png");
+  if (options.solid && format.kind != Kind::step) return refuse("--solid", "step");
+  if (!options.unit.empty() && format.kind != Kind::step) return refuse("--unit", "step");
   return std::monostate{};
 }
 
@@ -73,6 +76,8 @@ Result<TerrainPlan> make_plan(const TerrainVerbOptions& options) {
   if (Status taken = take_length("--cell", options.cell, plan.file.cell); !taken) return taken.error();
   if (options.curve_points != 0) plan.file.curve_points = options.curve_points;
   if (options.width != 0) plan.file.width = options.width;
+  plan.file.solid = options.solid;
+  plan.file.unit = options.unit;
   const Result<input::TerrainRequest> request = terrain_request(options.terrain);
   if (!request) return request.error();
   plan.request = *request;
@@ -135,6 +140,7 @@ std::string summary_line(const Terrain& terrain, const std::string& surface, con
     text += fmt::format("; {} x {} cells", report.columns, report.rows);
     if (report.cells_without_data > 0) text += fmt::format(", {} without data", report.cells_without_data);
   }
+  if (!report.faces.empty()) text += "; " + report.faces;
   if (report.triangles > 0) text += fmt::format("; {} triangles written", report.triangles);
   if (report.deviation) text += fmt::format(", within {:.3g}", *report.deviation);
   return text;
@@ -155,6 +161,7 @@ Result<output::SurfaceFileReport> compute_and_write(const TerrainVerbOptions& op
   }
   tell_counters(*surface, computing.seconds(), session);
   surface_text = surface_summary(*surface);
+  if (const auto warning = output::size_warning(*surface, plan.format)) session.note(failed_file, *warning);
   return output::write_surface(options.output, *surface, plan.format, plan.file, session.context("writing"));
 }
 
@@ -191,6 +198,11 @@ void add_output_options(CLI::App& verb, TerrainVerbOptions& options) {
   verb.add_option("--cell", options.cell,
                   "GeoTIFF: distance of the heights (default: that of the input raster, or extent / 1000)")
       ->type_name("LENGTH");
+  verb.add_flag("--solid", options.solid, "STEP: a solid, closed by vertical walls and a floor");
+  verb.add_option("--unit", options.unit,
+                  "STEP: unit of the coordinates (default: that of the coordinate system, else mm)")
+      ->check(CLI::IsMember({"mm", "cm", "m", "km", "in", "ft"}))
+      ->type_name("UNIT");
   verb.add_option("--width", options.width, "PNG: columns of the picture (default: 1600)")
       ->check(CLI::Range(16, 30000))->type_name("N");
   verb.add_option("--engine", options.engine, "Algorithm: auto")->type_name("NAME");
@@ -202,8 +214,10 @@ void add_terrain_verb(CLI::App& program, Session& session) {
   auto options = std::make_shared<TerrainVerbOptions>();
   CLI::App* verb = program.add_subcommand("terrain", "Surface of a ball's centre over a terrain or part, of true patches");
   add_terrain_options(*verb, options->terrain);
-  verb->add_option("OUT", options->output,
-                   "Result: .json .gpkg (subdivision), .stl .ply .glb (triangles), .tif (heights), .png (picture), or - (JSON)")
+  verb->add_option(
+          "OUT", options->output,
+          "Result: .json .gpkg (subdivision), .step (faces of CAD), .stl .ply .glb (triangles), .tif (heights), "
+          ".png (picture), or - (JSON)")
       ->required();
   verb->add_option("--radius", options->radius, "Radius of the ball, in the unit of the coordinates")
       ->required()->type_name("R");

@@ -64,8 +64,8 @@ Result<SubdivisionFile> read_subdivision(const std::string& path, const Context&
 bool looks_like_subdivision(const std::string& path);
 
 /// The same from the layers `faces`, `edges` and `vertices` of a GeoPackage. Edges have the points of their chords,
-/// ends included: 2 or more. The radius is not in the file; it is the distance of the vertices from what the ball
-/// touches there, to within rounding. Features that have no face have no points.
+/// ends included: 2 or more. Where the file does not name the radius, it is the distance of the vertices
+/// from what the ball touches there, to within rounding. Features that have no face have no points.
 struct SubdivisionGeoPackage {
   SubdivisionFile file;
   std::string crs;  ///< name of the coordinate system; empty if unknown

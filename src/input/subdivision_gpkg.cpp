@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "input/subdivision_file.hpp"
 #include "ogr/message_capture.hpp"
@@ -58,6 +59,11 @@ class Row {
     if (i < 0 || !feature_.IsFieldSetAndNotNull(i)) return File::none;
     const GIntBig value = feature_.GetFieldAsInteger64(i);
     return value >= 0 && value < GIntBig{File::none} ? Index(value) : File::none;
+  }
+  std::optional<double> real(const char* column) const {
+    const int i = number(column);
+    if (i < 0 || !feature_.IsFieldSetAndNotNull(i)) return std::nullopt;
+    return feature_.GetFieldAsDouble(i);
   }
   const OGRGeometry* geometry() const { return feature_.GetGeometryRef(); }
 
@@ -133,6 +139,7 @@ class GeoPackageReader {
   }
 
   Status face(const Row& row) {
+    if (const std::optional<double> radius = row.real("radius")) file_.radius = *radius;
     // The outside is not in the layer.
     if (file_.faces.empty()) file_.faces.push_back({File::none, File::none, 0});
     if (row.index("face") != file_.faces.size()) return fault("faces are not numbered from 1 on", row.place());
@@ -172,9 +179,10 @@ class GeoPackageReader {
     return std::fabs(n.x * w.x + n.y * w.y + n.z * w.z) / length(n);
   }
 
-  /// The file does not name the radius; every vertex is that far from what the ball touches there. The median of many,
+  /// Older files do not name the radius; every vertex is that far from what the ball touches there. The median of many,
   /// in which the rounding of a single one does not matter.
   Status find_radius() {
+    if (file_.radius > 0) return std::monostate{};
     std::vector<double> found;
     const std::size_t step = file_.edges.size() / samples_of_radius + 1;
     for (std::size_t e = 0; e < file_.edges.size(); e += step)

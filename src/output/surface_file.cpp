@@ -20,10 +20,10 @@ struct KnownFormat {
 };
 // Also the extensions.
 constexpr KnownFormat known_formats[] = {
-    {"json", Kind::json}, {"gpkg", Kind::gpkg}, {"tif", Kind::tif}, {"tiff", Kind::tif},
-    {"stl", Kind::stl},   {"ply", Kind::ply},   {"glb", Kind::glb}, {"png", Kind::png},
+    {"json", Kind::json}, {"gpkg", Kind::gpkg}, {"tif", Kind::tif}, {"tiff", Kind::tif},  {"stl", Kind::stl},
+    {"ply", Kind::ply},   {"glb", Kind::glb},   {"png", Kind::png}, {"step", Kind::step}, {"stp", Kind::step},
 };
-constexpr const char* format_list = "json, gpkg, tif, stl, ply, glb or png";
+constexpr const char* format_list = "json, gpkg, tif, step, stl, ply, glb or png";
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -32,8 +32,6 @@ std::string lower(std::string text) {
 
 Error unknown_format(const std::string& path, const std::string& asked, const std::string& extension) {
   const std::string remedy = std::string("give --format ") + format_list;
-  const std::string& name = asked.empty() ? extension : asked;
-  if (name == "step" || name == "stp") return {ErrorCode::usage, "STEP is not written by this version", "", remedy};
   if (!asked.empty()) return {ErrorCode::usage, "unknown format '" + asked + "'", "", remedy};
   if (extension.empty()) {
     return {ErrorCode::usage, path + ": the format of a file without extension is not known", "", remedy};
@@ -167,6 +165,16 @@ Status write_sections(OutputStream& stream, std::span<const std::uint64_t> sizes
   return std::monostate{};
 }
 
+std::optional<std::string> size_warning(const Surface& surface, const SurfaceFormat& format) {
+  constexpr std::size_t most_faces = 50'000;
+  const std::size_t faces = surface.subdivision().face_count();
+  if (format.kind != Kind::step || faces <= most_faces) return std::nullopt;
+  return fmt::format(
+      "warning: {} faces; CAD programs take minutes and gigabytes for STEP of more than {}. Take a part of the "
+      "terrain or a larger radius, or glb",
+      faces, most_faces);
+}
+
 SurfaceWriteResult write_surface(const std::string& path, const Surface& surface, const SurfaceFormat& format,
                                  const SurfaceFileOptions& options, const Context& context) {
   if (options.curve_points < 3) return Error{ErrorCode::usage, "an edge has 3 points or more", "", ""};
@@ -180,6 +188,8 @@ SurfaceWriteResult write_surface(const std::string& path, const Surface& surface
     case Kind::ply: return write_surface_ply(path, surface, options, context);
     case Kind::glb: return write_surface_glb(path, surface, options, context);
     case Kind::png: return write_surface_png(path, surface, options, context);
+    case Kind::step:
+      return write_surface_step(path, surface, options, context);
   }
   return Error{ErrorCode::usage, "unknown format", "", ""};
 }

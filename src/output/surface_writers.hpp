@@ -47,5 +47,7 @@ SurfaceWriteResult write_surface_stl(const std::string& path, const Surface&, co
 SurfaceWriteResult write_surface_ply(const std::string& path, const Surface&, const SurfaceFileOptions&, const Context&);
 SurfaceWriteResult write_surface_glb(const std::string& path, const Surface&, const SurfaceFileOptions&, const Context&);
 SurfaceWriteResult write_surface_png(const std::string& path, const Surface&, const SurfaceFileOptions&, const Context&);
+SurfaceWriteResult write_surface_step(const std::string& path, const Surface&, const SurfaceFileOptions&,
+                                      const Context&);
 
 }  // namespace krepl::output

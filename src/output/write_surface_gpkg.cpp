@@ -143,6 +143,7 @@ void SurfaceGeoPackage::fill_face(OGRFeature& feature, Index f) {
   feature.SetField("face", static_cast<GIntBig>(f));
   feature.SetField("outer", static_cast<GIntBig>(topology_.face_outer[f]));
   feature.SetField("inner", fmt::format("{}", fmt::join(topology_.inner_loops(f), " ")).c_str());
+  feature.SetField("radius", surface_.radius());
   const Index patch = surface_.face_feature(f);
   if (patch == Surface::none) {
     feature.SetField("kind", "hole");
@@ -171,9 +172,11 @@ void SurfaceGeoPackage::fill_edge(OGRFeature& feature, Index e) {
   set_feature_number(feature, "left_feature", edge.feature[0]);
   set_feature_number(feature, "right_feature", edge.feature[1]);
   auto line = std::make_unique<OGRLineString>();
-  add_point(*line, surface_.vertex(topology_.origin[left]));
+  // A vertex on a wall is at its upper end; an edge that meets the wall further down ends there.
+  const std::vector<Point3> ends = surface_.curve(e, 3);
+  add_point(*line, ends.front());
   for (const Point3 p : border_.edges().inner(e)) add_point(*line, p);
-  add_point(*line, surface_.vertex(topology_.origin[right]));
+  add_point(*line, ends.back());
   feature.SetGeometryDirectly(line.release());
 }
 
@@ -194,8 +197,13 @@ Status SurfaceGeoPackage::write(const std::string& path) {
   for (std::size_t h = topology_.half_edge_count(); h-- > 0;) outgoing_[topology_.origin[h]] = Index(h);
 
   Result<OGRLayer*> layer = create_layer("faces", wkbPolygon25D,
-      {{"face", OFTInteger64}, {"kind", OFTString}, {"feature", OFTInteger64}, {"at", OFTString}, {"outer", OFTInteger64},
-       {"inner", OFTString}});
+                                         {{"face", OFTInteger64},
+                                          {"kind", OFTString},
+                                          {"feature", OFTInteger64},
+                                          {"at", OFTString},
+                                          {"outer", OFTInteger64},
+                                          {"inner", OFTString},
+                                          {"radius", OFTReal}});
   if (!layer) return layer.error();
   Status written = write_layer(**layer, 1, topology_.face_count(), [&](OGRFeature& row, Index f) { fill_face(row, f); });
   if (!written) return written;

@@ -395,6 +395,37 @@ class Terrain(support.CliTest):
         self.assertEqual(list(map(sorted, ends)), [[5, 20]] * 6)
         self.succeed("verify", "out.json", "--against", "walls.off")
 
+    # --- STEP ---
+
+    def entities(self, name):
+        """How many of each kind, without their numbers."""
+        text = self.text(name)
+        self.assertTrue(text.startswith("ISO-10303-21;") and text.endswith("END-ISO-10303-21;\n"))
+        return Counter(line.split("=", 1)[1].split("(", 1)[0].strip() for line in text.splitlines() if "=" in line)
+
+    def test_step_has_a_face_for_each_face(self):
+        done = self.terrain("out.step")
+        self.terrain("out.json")
+        s = json.loads(self.text("out.json"))
+        kinds = Counter(s["features"][f["feature"]]["kind"] for f in s["faces"] if f["feature"] is not None)
+        found = self.entities("out.step")
+        self.assertEqual(found["ADVANCED_FACE"], sum(kinds.values()))
+        self.assertEqual((found["PLANE"], found["CYLINDRICAL_SURFACE"], found["SPHERICAL_SURFACE"]),
+                         (kinds["face"], kinds["edge"], kinds["vertex"]))
+        self.assertEqual(found["OPEN_SHELL"], 1)
+        self.assertIn(f"{kinds['face']} planes, {kinds['edge']} cylinders and {kinds['vertex']} spheres written", done.stdout)
+        self.assertIn("'1970-01-01T00:00:00'", self.text("out.step"))
+
+    def test_step_as_a_solid_and_units(self):
+        self.terrain("out.step", "--solid", "--unit", "cm")
+        found = self.entities("out.step")
+        self.assertEqual((found["MANIFOLD_SOLID_BREP"], found["CLOSED_SHELL"], found["OPEN_SHELL"]), (1, 1, 0))
+        self.assertIn("SI_UNIT(.CENTI.,.METRE.)", self.text("out.step"))
+        # Every edge of a closed shell has two faces.
+        self.assertEqual(found["ORIENTED_EDGE"], 2 * found["EDGE_CURVE"])
+        done = self.terrain("again.stp", "--solid")
+        self.assertIn("a floor", done.stdout)
+
     # --- refusals ---
 
     def test_verify_where_adding_the_origin_rounds(self):
@@ -404,9 +435,11 @@ class Terrain(support.CliTest):
         self.succeed("verify", "out.json", "--against", "far.asc")
 
     def test_refusals(self):
-        formats = "give --format json, gpkg, tif, stl, ply, glb or png"
+        formats = "give --format json, gpkg, tif, step, stl, ply, glb or png"
         for arguments, message in (
-                (("out.step",), f"STEP is not written by this version; {formats}"),
+                (("out.json", "--solid"), "--solid has no meaning for format json; it belongs to step"),
+                (("out.json", "--unit", "m"), "--unit has no meaning for format json; it belongs to step"),
+                (("-", "--format", "step"), "format step cannot go to standard output; choose json, or name a file"),
                 (("out.xyz",), f"out.xyz: the extension .xyz belongs to no format of surfaces; {formats}"),
                 (("out",), f"out: the format of a file without extension is not known; {formats}"),
                 (("out.json", "--format", "dwg"), f"unknown format 'dwg'; {formats}"),
