@@ -23,6 +23,15 @@ struct SurfaceCounters {
   std::uint64_t smallest_cells = 0;     ///< of those, settled only because they are as small as the coordinates tell
   std::uint64_t lines = 0;              ///< cell sides along which the boundary's section was computed
   std::uint64_t height_evaluations = 0;
+  // Of the incremental engine only (incremental.hpp).
+  std::uint64_t unions = 0;                   ///< semi-kreplach added
+  std::uint64_t curves_traced = 0;            ///< of pairs of patches, and sides of patches
+  std::uint64_t intersection_components = 0;  ///< of the new boundary with the old one, in all unions
+  std::uint64_t closed_components = 0;        ///< of them, closed curves
+  std::uint64_t most_components = 0;          ///< in one union
+  std::uint64_t last_components = 0;          ///< in the last union
+  std::uint64_t last_closed = 0;              ///< of them, closed curves
+  std::uint64_t unions_with_several = 0;      ///< unions with more than one
 };
 
 /// The upper boundary of terrain (+) ball: every place where the centre of a ball of radius R lies when it rests on the
@@ -73,6 +82,7 @@ class Surface {
 
  private:
   friend class SurfaceAssembly;
+  friend class IncrementalAssembly;
   // An edge in one byte: its kind, its curve, and the lower side of a rim, left 0 or right 1, else 2. Its features are those of
   // its faces.
   static std::uint8_t style_of(EdgeKind kind, Curve curve, int lower) {

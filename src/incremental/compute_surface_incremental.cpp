@@ -1,0 +1,81 @@
+#include <cmath>
+#include <cstdio>
+
+#include "incremental/assembly.hpp"
+#include "incremental/monotone_order.hpp"
+#include "krepl/incremental.hpp"
+
+namespace krepl {
+
+namespace {
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", x);
+  return text;
+}
+
+std::optional<Error> refusal(const Terrain& terrain, const IncrementalOptions& options) {
+  const double radius = options.radius;
+  if (!std::isfinite(radius) || radius <= 0) {
+    return Error{ErrorCode::usage, "the radius is " + number(radius), "", "give a positive, finite number"};
+  }
+  const double scale = std::max(radius, terrain.extent());
+  if (scale > 1e100 || radius < 1e-100) {
+    return Error{ErrorCode::input, "coordinates or radius are beyond 1e100, or the radius is below 1e-100", "",
+                 "scale the input"};
+  }
+  if (radius < 0x1p-20 * scale) {
+    return Error{ErrorCode::usage, "the radius " + number(radius) + " is too fine for an extent of " + number(scale),
+                 "", "use at least " + number(0x1p-20 * scale) + ", or the engine auto"};
+  }
+  if (terrain.triangle_count() > options.most_triangles) {
+    return Error{ErrorCode::usage,
+                 "the incremental engine takes at most " + std::to_string(options.most_triangles) +
+                     " triangles, these are " + std::to_string(terrain.triangle_count()),
+                 "", "use the engine auto, or cut the input smaller"};
+  }
+  return std::nullopt;
+}
+
+Error uncertified(const Terrain& terrain, const incremental::Fault& fault, std::size_t step) {
+  const Point3 o = terrain.origin();
+  return Error{ErrorCode::computation, "the surface could not be certified: " + fault.what,
+               "near x " + number(double(fault.at.x) + o.x) + ", y " + number(double(fault.at.y) + o.y) +
+                   ", when triangle " + std::to_string(step + 1) + " of the order was added",
+               "use the engine auto"};
+}
+
+}  // namespace
+
+Result<Surface> compute_surface_incremental(std::shared_ptr<const Terrain> terrain, const IncrementalOptions& options,
+                                            const Context& context) {
+  if (auto error = refusal(*terrain, options)) return *error;
+  const incremental::Parts parts(*terrain, options.radius);
+  const incremental::Tolerance tolerance(std::max(options.radius, terrain->extent()));
+  incremental::Union growing(parts, tolerance);
+  SurfaceCounters counters;
+  counters.patches = parts.parts().size();
+  const std::vector<incremental::Index> order = incremental::monotone_order(parts);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
+    if (const auto fault = growing.add(order[i])) return uncertified(*terrain, *fault, i);
+    const incremental::UnionStep& step = growing.last_step();
+    ++counters.unions;
+    counters.intersection_components += step.components;
+    counters.closed_components += step.closed;
+    counters.most_components = std::max<std::uint64_t>(counters.most_components, step.components);
+    counters.last_components = step.components;
+    counters.last_closed = step.closed;
+    counters.unions_with_several += step.components > 1;
+    if (context.progress) context.progress(double(i + 1) / double(order.size()));
+  }
+  counters.curves_traced = growing.curves_traced();
+  Surface surface = IncrementalAssembly(terrain, options.radius, parts, growing.map()).finish(counters);
+  if (auto problem = surface.validate()) {
+    return Error{ErrorCode::computation, "the surface could not be certified: " + *problem, "", "use the engine auto"};
+  }
+  return surface;
+}
+
+}  // namespace krepl
