@@ -13,7 +13,9 @@
 #include <span>
 #include <thread>
 
+#include "krepl/incremental.hpp"
 #include "support/ball_oracle.hpp"
+#include "support/surface_comparison.hpp"
 
 namespace krepl::test {
 
@@ -271,7 +273,22 @@ Fault fault_in(const SmallTerrain& c, const SurfaceEffort& effort) {
   const std::size_t triangles = terrain_of(c).value()->triangle_count(), edges = surface->subdivision().edge_count();
   if (edges > 1000 + 100 * triangles)
     return std::to_string(edges) + " edges from " + std::to_string(triangles) + " triangles";
-  return fault_in(*surface, c, effort);
+  if (const Fault fault = fault_in(*surface, c, effort)) return fault;
+  // Any test of small terrains is one of both engines if it is run so.
+  static const bool both = std::getenv("KREPL_TEST_BOTH_ENGINES") != nullptr;
+  return both ? fault_between_engines(*surface, c) : std::nullopt;
+}
+
+Fault fault_between_engines(const Surface& surface, const SmallTerrain& c) {
+  IncrementalOptions options;
+  options.radius = c.radius;
+  const auto other = compute_surface_incremental(terrain_of(c).value(), options);
+  if (!other) return "incremental: " + other.error().text();
+  if (const Fault fault = fault_in(*other, c, {})) return "incremental: " + *fault;
+  const double scale = std::max(c.radius, surface.terrain().extent());
+  const Comparison comparison = compare(surface, *other, 1e-9 * scale);
+  if (comparison.difference) return "the engines differ: " + *comparison.difference;
+  return std::nullopt;
 }
 
 SmallTerrain minimised(SmallTerrain c, const SurfaceEffort& effort) {

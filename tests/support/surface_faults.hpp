@@ -35,4 +35,8 @@ SmallTerrain minimised(SmallTerrain c, const SurfaceEffort& effort = {});
 /// The surface on one thread, cancelled after some seconds.
 Result<Surface> surface_within(const SmallTerrain& c, double seconds);
 
+/// What is wrong with the incremental engine's surface of the case, by brute force, or how it differs from the other
+/// engine's (surface_comparison.hpp), which is sound.
+std::optional<std::string> fault_between_engines(const Surface& surface, const SmallTerrain& c);
+
 }  // namespace krepl::test

@@ -1,0 +1,364 @@
+#include "support/surface_comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "support/ball_oracle.hpp"
+
+namespace krepl::test {
+
+namespace {
+
+using Index = Surface::Index;
+constexpr Index none = Surface::none;
+
+std::string at(Point3 p) {
+  char buffer[100];
+  std::snprintf(buffer, sizeof buffer, " at (%.12g, %.12g, %.12g)", p.x, p.y, p.z);
+  return buffer;
+}
+double distance(Point3 p, Point3 q) { return std::hypot(p.x - q.x, p.y - q.y, p.z - q.z); }
+
+/// Half-edges of a surface from one vertex that means something to the next.
+struct Chain {
+  std::vector<Index> half_edges;
+  Index from, to;  // vertices; none for a closed one without any
+  Index left, right;
+  Surface::EdgeKind kind;
+  Surface::Curve curve;
+};
+
+/// A surface's half-edges without those that are too short to mean anything, joined to chains.
+class Reduced {
+ public:
+  Reduced(const Surface& surface, double tolerance, bool up_to_tangency)
+      : surface_(surface), topology_(surface.subdivision()), next_(topology_.next), previous_(next_.size()) {
+    const auto count = Index(next_.size());
+    for (Index h = 0; h < count; ++h) previous_[next_[h]] = h;
+    vertex_.resize(topology_.vertex_count);
+    for (Index v = 0; v < vertex_.size(); ++v) vertex_[v] = v;
+    alive_.assign(count, true);
+    features_.resize(topology_.vertex_count);
+    walls_.resize(topology_.vertex_count);
+    for (Index h = 0; h < count; ++h) {
+      for (const Index f : surface.edge(h / 2).feature) {
+        if (f == none) continue;
+        features_[topology_.origin[h]].insert(f);
+        if (surface.edge(h / 2).kind == Surface::EdgeKind::rim) walls_[topology_.origin[h]].insert(f);
+      }
+    }
+    for (Index e = 0; e < count / 2; ++e) contract_if_short(e, tolerance, up_to_tangency);
+    out_.resize(topology_.vertex_count);
+    for (Index h = 0; h < count; ++h) {
+      if (alive_[h]) out_[origin(h)].push_back(h);
+    }
+    chain_of_.assign(count, none);
+    for (Index h = 0; h < count; ++h) {
+      if (alive_[h] && is_kept(origin(h))) add(h);
+    }
+    for (Index h = 0; h < count; ++h) {
+      if (alive_[h] && chain_of_[h] == none) add(h);  // closed, and met nowhere
+    }
+  }
+
+  const Surface& surface() const { return surface_; }
+  int contracted() const { return contracted_; }
+  Index origin(Index h) const { return find(topology_.origin[h]); }
+  Index face(Index h) const { return topology_.face[h]; }
+  bool is_kept(Index v) const {
+    const auto& out = out_[v];
+    return !out.empty() && (out.size() != 2 || !same(out[0] ^ 1u, out[1]));
+  }
+  const Chain& chain(Index h) const { return chains_[chain_of_[h]]; }
+  const std::vector<Chain>& chains() const { return chains_; }
+  Index feature(Index h) const { return surface_.face_feature(face(h)); }
+
+  /// A ball about p touches what balls touch beside the vertex, within the tolerance. What ends in a wall there may do
+  /// so further down than the vertex.
+  bool touches(Index v, Point3 p, double tolerance) const {
+    return std::all_of(features_[v].begin(), features_[v].end(), [&](Index f) {
+      Terrain::Corners c = surface_.terrain().corners(f);
+      const auto off = [&] { return std::fabs(double(nearest_on(c, {p.x, p.y, p.z}).distance) - surface_.radius()); };
+      if (off() <= tolerance) return true;
+      if (!walls_[v].contains(f) || c.count == 3) return false;
+      for (Point3& q : c.point) q.z = p.z;
+      return off() <= tolerance;
+    });
+  }
+
+  /// Half-edges out of a vertex, counter-clockwise.
+  std::vector<Index> around(Index v) const {
+    std::vector<Index> turn;
+    Index h = out_[v][0];
+    do {
+      turn.push_back(h);
+      h = previous_[h] ^ 1u;
+    } while (h != out_[v][0] && turn.size() <= out_[v].size());
+    return turn;
+  }
+
+  /// Loops of each face.
+  std::map<Index, int> loops() const {
+    std::map<Index, int> count;
+    std::vector<bool> seen(next_.size(), false);
+    for (Index h = 0; h < next_.size(); ++h) {
+      if (!alive_[h] || seen[h]) continue;
+      ++count[face(h)];
+      for (Index g = h; !seen[g]; g = next_[g]) seen[g] = true;
+    }
+    return count;
+  }
+
+  Point3 middle(const Chain& c) const {
+    const Index h = c.half_edges[c.half_edges.size() / 2];
+    return surface_.curve(h / 2, 3)[1];
+  }
+
+ private:
+  Index find(Index v) const {
+    while (vertex_[v] != v) v = vertex_[v];
+    return v;
+  }
+  /// If both ends are the same place but for what cannot be told where curves are tangent, and it stays near.
+  void contract_if_short(Index e, double tolerance, bool up_to_tangency) {
+    const auto points = surface_.curve(e, 9);
+    const auto off = [&](Point3 p) { return std::hypot(p.x - points[0].x, p.y - points[0].y); };
+    const double tangent = std::sqrt(tolerance * std::max(surface_.radius(), surface_.terrain().extent()));
+    if (!std::all_of(points.begin(), points.end(), [&](Point3 p) { return off(p) <= tangent; })) return;
+    const Index v = find(topology_.origin[2 * e]), w = find(topology_.origin[2 * e + 1]);
+    if (off(points.back()) <= tolerance) return contract(e, v, w);
+    if (!up_to_tangency) return;
+    if (touches(w, surface_.vertex(v), tolerance))
+      contract(e, v, w);
+    else if (touches(v, surface_.vertex(w), tolerance))
+      contract(e, w, v);
+  }
+  void contract(Index e, Index kept, Index gone) {
+    ++contracted_;
+    vertex_[gone] = kept;
+    features_[kept].insert(features_[gone].begin(), features_[gone].end());
+    walls_[kept].insert(walls_[gone].begin(), walls_[gone].end());
+    for (const Index h : {2 * e, 2 * e + 1}) {
+      next_[previous_[h]] = next_[h];
+      previous_[next_[h]] = previous_[h];
+      alive_[h] = false;
+    }
+  }
+  bool same(Index h, Index after) const {
+    const auto a = surface_.edge(h / 2), b = surface_.edge(after / 2);
+    return a.kind == b.kind && feature(h) == feature(after) && feature(h ^ 1u) == feature(after ^ 1u);
+  }
+  void add(Index h) {
+    if (chain_of_[h] != none) return;
+    Chain c;
+    c.left = feature(h), c.right = feature(h ^ 1u);
+    const auto edge = surface_.edge(h / 2);
+    c.kind = edge.kind, c.curve = edge.curve;
+    Index g = h;
+    for (;;) {
+      c.half_edges.push_back(g);
+      chain_of_[g] = Index(chains_.size());
+      const Index end = origin(g ^ 1u);
+      if (is_kept(end)) break;
+      g = out_[end][0] == (g ^ 1u) ? out_[end][1] : out_[end][0];
+      if (g == h) break;
+    }
+    const bool open = is_kept(origin(h));
+    c.from = open ? origin(h) : none;
+    c.to = open ? origin(c.half_edges.back() ^ 1u) : none;
+    chains_.push_back(std::move(c));
+  }
+
+  const Surface& surface_;
+  const Subdivision& topology_;
+  std::vector<Index> next_, previous_, vertex_;
+  std::vector<bool> alive_;
+  std::vector<std::set<Index>> features_;  // that balls touch around each vertex
+  std::vector<std::set<Index>> walls_;     // of them, those that end in a wall
+  std::vector<std::vector<Index>> out_;
+  std::vector<Index> chain_of_;
+  std::vector<Chain> chains_;
+  int contracted_ = 0;
+};
+
+class Comparer {
+ public:
+  Comparer(const Surface& first, const Surface& second, double tolerance, bool up_to_tangency)
+      : a_(first, tolerance, up_to_tangency),
+        b_(second, tolerance, up_to_tangency),
+        tolerance_(tolerance),
+        up_to_tangency_(up_to_tangency) {
+    result_.up_to_tangency = up_to_tangency;
+    result_.short_edges = {a_.contracted(), b_.contracted()};
+  }
+
+  Comparison run() {
+    result_.difference = difference();
+    return result_;
+  }
+
+ private:
+  std::optional<std::string> difference() {
+    if (auto d = pair_vertices()) return d;
+    for (Index v = 0; v < partner_.size(); ++v) {
+      if (partner_[v] == none) continue;
+      if (auto d = compare_around(v)) return d;
+    }
+    if (auto d = pair_closed()) return d;
+    return compare_faces();
+  }
+
+  static std::vector<Index> kept(const Reduced& r) {
+    std::vector<Index> all;
+    for (Index v = 0; v < r.surface().subdivision().vertex_count; ++v) {
+      if (r.is_kept(v)) all.push_back(v);
+    }
+    return all;
+  }
+
+  std::optional<std::string> pair_vertices() {
+    const std::vector<Index> first = kept(a_), second = kept(b_);
+    partner_.assign(a_.surface().subdivision().vertex_count, none);
+    std::vector<bool> used(b_.surface().subdivision().vertex_count, false);
+    for (const Index v : first) {
+      double least = std::numeric_limits<double>::infinity();
+      Index best = none;
+      for (const Index w : second) {
+        const double d = distance(a_.surface().vertex(v), b_.surface().vertex(w));
+        if (!used[w] && d < least) least = d, best = w;
+      }
+      if (up_to_tangency_ && best != none && least > tolerance_ && are_tangent(v, best)) {
+        ++result_.tangent_vertices;
+      } else if (!(least <= tolerance_)) {
+        return "only the first has a vertex" + at(a_.surface().vertex(v)) +
+               (best == none
+                    ? ""
+                    : "; the nearest of the second is off by " + std::to_string(std::log10(least)) + " (log10)");
+      }
+      partner_[v] = best;
+      used[best] = true;
+    }
+    for (const Index w : second) {
+      if (!used[w]) return "only the second has a vertex" + at(b_.surface().vertex(w));
+    }
+    return std::nullopt;
+  }
+
+  /// Both vertices are at distance R from all features around the other one, but for the tolerance.
+  bool are_tangent(Index v, Index w) const {
+    return a_.touches(v, b_.surface().vertex(w), tolerance_) && b_.touches(w, a_.surface().vertex(v), tolerance_);
+  }
+  struct Spoke {
+    Index left, right, other_end;
+    Surface::EdgeKind kind;
+    Surface::Curve curve;
+    bool operator==(const Spoke&) const = default;
+  };
+  Spoke spoke(const Reduced& r, Index h, bool map) const {
+    const Chain& c = r.chain(h);
+    return {c.left, c.right, map ? partner_[c.to] : c.to, c.kind, c.curve};
+  }
+
+  std::optional<std::string> compare_around(Index v) {
+    const std::vector<Index> a = a_.around(v), b = b_.around(partner_[v]);
+    if (a.size() != b.size()) {
+      return "degrees " + std::to_string(a.size()) + " and " + std::to_string(b.size()) + at(a_.surface().vertex(v));
+    }
+    for (std::size_t shift = 0; shift < b.size(); ++shift) {
+      bool equal = true;
+      for (std::size_t i = 0; i < a.size() && equal; ++i) {
+        equal = spoke(a_, a[i], true) == spoke(b_, b[(i + shift) % b.size()], false);
+      }
+      if (!equal) continue;
+      for (std::size_t i = 0; i < a.size(); ++i) pair_faces(a[i], b[(i + shift) % b.size()]);
+      return std::nullopt;
+    }
+    std::string text = "edges differ around the vertex" + at(a_.surface().vertex(v)) + ":";
+    for (const bool second : {false, true}) {
+      text += second ? " /" : "";
+      for (const Index h : second ? b : a) {
+        const Spoke s = second ? spoke(b_, h, false) : spoke(a_, h, true);
+        text += " " + std::to_string(int(s.left)) + "|" + std::to_string(int(s.right)) + " kind " +
+                std::to_string(int(s.kind)) + " curve " + std::to_string(int(s.curve)) + " to " +
+                std::to_string(int(s.other_end)) + ",";
+      }
+    }
+    return text;
+  }
+
+  std::optional<std::string> pair_closed() {
+    std::vector<bool> used(b_.chains().size(), false);
+    std::size_t count = 0, others = 0;
+    for (const Chain& c : b_.chains()) others += c.from == none;
+    for (const Chain& c : a_.chains()) {
+      if (c.from != none) continue;
+      ++count;
+      const Point3 p = a_.middle(c);
+      bool found = false;
+      for (std::size_t k = 0; k < b_.chains().size() && !found; ++k) {
+        const Chain& d = b_.chains()[k];
+        if (d.from != none || used[k] || d.left != c.left || d.right != c.right || d.kind != c.kind ||
+            d.curve != c.curve)
+          continue;
+        // The labels tell the curve; which component of it, the places.
+        double least = std::numeric_limits<double>::infinity(), longest = 0;
+        for (const Index h : d.half_edges) {
+          const auto points = b_.surface().curve(h / 2, 257);
+          for (std::size_t i = 0; i < points.size(); ++i) {
+            least = std::min(least, distance(p, points[i]));
+            if (i > 0) longest = std::max(longest, distance(points[i - 1], points[i]));
+          }
+        }
+        if (least > longest) continue;
+        found = used[k] = true;
+        pair_faces(c.half_edges[0], d.half_edges[0]);
+      }
+      if (!found) return "only the first has a closed edge" + at(p);
+    }
+    if (count != others) return std::to_string(count) + " and " + std::to_string(others) + " closed half-edges";
+    return std::nullopt;
+  }
+
+  void pair_faces(Index h, Index g) {
+    for (const Index twin : {0u, 1u}) {
+      const Index f = a_.face(h ^ twin), e = b_.face(g ^ twin);
+      mismatch_ = mismatch_ || (face_.contains(f) && face_[f] != e) || (face_back_.contains(e) && face_back_[e] != f);
+      face_[f] = e;
+      face_back_[e] = f;
+    }
+  }
+
+  std::optional<std::string> compare_faces() {
+    if (mismatch_) return "faces do not correspond";
+    const auto a = a_.loops(), b = b_.loops();
+    if (a.size() != b.size()) return std::to_string(a.size()) + " and " + std::to_string(b.size()) + " faces";
+    for (const auto& [f, loops] : a) {
+      const auto e = face_.find(f);
+      if (e == face_.end()) return "a face without a partner";
+      if (b.at(e->second) != loops) return "faces with different numbers of holes";
+    }
+    return std::nullopt;
+  }
+
+  Reduced a_, b_;
+  double tolerance_;
+  bool up_to_tangency_;
+  std::vector<Index> partner_;
+  std::map<Index, Index> face_, face_back_;
+  bool mismatch_ = false;
+  Comparison result_;
+};
+
+}  // namespace
+
+Comparison compare(const Surface& first, const Surface& second, double tolerance) {
+  const Comparison strict = Comparer(first, second, tolerance, false).run();
+  return strict.difference ? Comparer(first, second, tolerance, true).run() : strict;
+}
+
+}  // namespace krepl::test
