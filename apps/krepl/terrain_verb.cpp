@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "krepl/incremental.hpp"
 #include "krepl/surface.hpp"
 #include "output/surface_file.hpp"
 #include "output_target.hpp"
@@ -31,10 +32,8 @@ struct TerrainPlan {
 };
 
 Status check_engine(const std::string& engine) {
-  if (engine == "auto") return std::monostate{};
-  const bool planned = engine == "incremental";
-  return Error{ErrorCode::usage, "engine '" + engine + (planned ? "' is not in this version" : "' is unknown"), "",
-               "give --engine auto"};
+  if (engine == "auto" || engine == "incremental") return std::monostate{};
+  return Error{ErrorCode::usage, "engine '" + engine + "' is unknown", "", "give --engine auto or incremental"};
 }
 
 /// An option that has no meaning for the format would be ignored in silence.
@@ -44,6 +43,9 @@ Status check_meaning(const TerrainVerbOptions& options, const output::SurfaceFor
     return Error{ErrorCode::usage, fmt::format("{} has no meaning for format {}", option, format.name), "",
                  fmt::format("it belongs to {}", formats)};
   };
+  if (options.engine != "auto" && !format.needs_subdivision())
+    return Error{ErrorCode::usage, fmt::format("--engine has no meaning for format {}", format.name), "",
+                 "its heights come from the drop cutter; leave --engine out"};
   if (options.curve_points != 0 && format.kind != Kind::json) return refuse("--curve-points", "json");
   if (!options.max_error.empty() && !format.is_mesh() && format.kind != Kind::gpkg)
     return refuse("--max-error", "stl, ply, glb and gpkg");
@@ -121,9 +123,27 @@ void tell_counters(const Surface& surface, double seconds, Session& session) {
   const FaceCounts faces = count_faces(surface);
   session.detail(fmt::format("faces      {} of planes, {} of cylinders, {} of spheres", faces.planes, faces.cylinders,
                              faces.spheres));
+  if (c.unions > 0) {
+    session.detail(fmt::format("unions     {} semi-kreplach added, {} curves looked along", c.unions, c.curves_traced));
+    session.detail(
+        fmt::format("intersections {} components, {} of them closed; {} unions had several, {} at most, the last one "
+                    "{} ({} closed)",
+                    c.intersection_components, c.closed_components, c.unions_with_several, c.most_components,
+                    c.last_components, c.last_closed));
+    return;
+  }
   session.detail(fmt::format("cells      {} examined, {} settled, {} of them as small as the coordinates tell", c.cells,
                              c.leaves, c.smallest_cells));
   session.detail(fmt::format("sections   {} along cell sides, {} heights evaluated", c.lines, c.height_evaluations));
+}
+
+Result<Surface> compute(const TerrainVerbOptions& options, const TerrainPlan& plan, const input::TerrainFile& file,
+                        Session& session) {
+  if (options.engine != "incremental")
+    return compute_surface(file.terrain, {plan.radius}, session.context("computing"));
+  IncrementalOptions incremental;
+  incremental.radius = plan.radius;
+  return compute_surface_incremental(file.terrain, incremental, session.context("computing"));
 }
 
 std::string surface_summary(const Surface& surface) {
@@ -154,7 +174,7 @@ Result<output::SurfaceFileReport> compute_and_write(const TerrainVerbOptions& op
   if (!plan.format.needs_subdivision())
     return output::write_heights(options.output, file.terrain, plan.radius, plan.file, session.context("writing"));
   const Stopwatch computing;
-  const Result<Surface> surface = compute_surface(file.terrain, {plan.radius}, session.context("computing"));
+  const Result<Surface> surface = compute(options, plan, file, session);
   if (!surface) {
     failed_file = options.terrain.name();
     return surface.error();
@@ -205,7 +225,9 @@ void add_output_options(CLI::App& verb, TerrainVerbOptions& options) {
       ->type_name("UNIT");
   verb.add_option("--width", options.width, "PNG: columns of the picture (default: 1600)")
       ->check(CLI::Range(16, 30000))->type_name("N");
-  verb.add_option("--engine", options.engine, "Algorithm: auto")->type_name("NAME");
+  verb.add_option("--engine", options.engine,
+                  "Algorithm: auto, or incremental (a second one, to check by, for up to 1000 triangles)")
+      ->type_name("NAME");
 }
 
 }  // namespace

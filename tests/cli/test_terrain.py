@@ -2,6 +2,7 @@
 import json
 import math
 import os
+import re
 import struct
 import subprocess
 from collections import Counter
@@ -444,7 +445,9 @@ class Terrain(support.CliTest):
                 (("out",), f"out: the format of a file without extension is not known; {formats}"),
                 (("out.json", "--format", "dwg"), f"unknown format 'dwg'; {formats}"),
                 (("-", "--format", "stl"), "format stl cannot go to standard output; choose json, or name a file"),
-                (("out.json", "--engine", "incremental"), "engine 'incremental' is not in this version; give --engine auto"),
+                (("out.json", "--engine", "magic"), "engine 'magic' is unknown; give --engine auto or incremental"),
+                (("out.tif", "--engine", "incremental"),
+                 "--engine has no meaning for format tif; its heights come from the drop cutter; leave --engine out"),
                 (("out.json", "--cell", "1"), "--cell has no meaning for format json; it belongs to tif"),
                 (("out.stl", "--curve-points", "9"), "--curve-points has no meaning for format stl; it belongs to json"),
                 (("out.tif", "--cell", "0"),
@@ -456,6 +459,20 @@ class Terrain(support.CliTest):
                 done = self.krepl("terrain", "in.asc", *arguments, "--radius", R)
                 self.assertEqual(done.returncode, 2)
                 self.assertTrue(done.stderr.endswith(" cells are too many; change --cell\n"), done.stderr)
+
+    def test_incremental_engine(self):
+        done = self.succeed("terrain", "in.asc", "out.json", "--radius", R, "--engine", "incremental", "--verbose")
+        self.assertRegex(done.stderr, r"unions +[0-9]+ semi-kreplach added, [0-9]+ curves looked along")
+        self.assertRegex(done.stderr, r"intersections [0-9]+ components, [0-9]+ of them closed; [0-9]+ unions had several")
+        self.succeed("verify", "out.json", "--against", "in.asc")
+        other = self.succeed("terrain", "in.asc", "other.json", "--radius", R)
+        counts = [re.search(r"[0-9]+ vertices, .* faces", text).group() for text in (done.stdout, other.stdout)]
+        self.assertEqual(*counts)
+
+    def test_incremental_engine_refuses_much(self):
+        self.write("big.asc", grid([[0] * 30 for _ in range(30)]))
+        self.fail_with(2, "big.asc: the incremental engine takes at most 1000 triangles, these are 1682; use the engine auto, "
+                          "or cut the input smaller", "terrain", "big.asc", "out.json", "--radius", 1, "--engine", "incremental")
 
     def test_interrupt_leaves_nothing(self):
         rows = [[(i * i * 7 + j * j * 5) % 13 for j in range(300)] for i in range(300)]
