@@ -43,7 +43,7 @@ double distance_to_edge(const Surface& surface, const std::vector<Point3>& point
     const double square = dot(d, d), t = square > 0 ? std::clamp(dot(p - line.front(), d) / square, 0.0, 1.0) : 0;
     const Point3 foot = edge.curve == Surface::Curve::line
                             ? line.front() + t * d
-                            : terrain::project_to_curve(surface.terrain(), surface.radius(), edge, p);
+                            : terrain::project_to_curve(surface.terrain(), surface.radius(), edge, p, surface.radius());
     largest = std::max(largest, distance(p, foot));
   }
   return largest;
