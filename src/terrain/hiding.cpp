@@ -417,6 +417,7 @@ class Envelope<Real>::Cover {
  private:
   /// The same, if it lies below the given plane.
   bool hides(Index c, const Plane& plane) {
+    noise_ = envelope_.noise_ * (1 + absolute(plane.gradient.x) + absolute(plane.gradient.y));
     const Real hx = plane.gradient.x * frame_.hx, hy = plane.gradient.y * frame_.hy, h = plane.height;
     const Real t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
     const int highest = step_ == 2 ? (hx + hy > 0 ? 2 : 0) : hy > 0 ? (hx > 0 ? 2 : 3) : (hx > 0 ? 1 : 0);
@@ -447,8 +448,8 @@ class Envelope<Real>::Cover {
       b.known |= 1u << i;
       if (!(b.height[i] > below_everything)) end_at_wall(b);
     }
-    if (b.height[i] - envelope_.noise_ > t) return true;
-    if (b.ends || !(b.height[i] + envelope_.noise_ > t)) return false;
+    if (b.height[i] - noise_ > t) return true;
+    if (b.ends || !(b.height[i] + noise_ > t)) return false;
     // A patch over all of the box may hide what sticks out by less than matters. One that is not might be hidden itself, as
     // part of another's body, by what it would hide: then only what is clearly lower.
     if (b.covers == Body::Covers::unknown) {
@@ -518,7 +519,7 @@ class Envelope<Real>::Cover {
   bool below_mean(const Body& a, const Body& b, const Real (&t)[4]) const {
     Real low = 0, high = 1;
     for (int i = 0; i < 4; i += step_) {
-      const Real slope = a.height[i] - b.height[i], need = t[i] + envelope_.noise_ - b.height[i];
+      const Real slope = a.height[i] - b.height[i], need = t[i] + noise_ - b.height[i];
       if (slope > 0) low = std::max(low, need / slope);
       else if (slope < 0) high = std::min(high, need / slope);
       else if (need >= 0) return false;
@@ -528,6 +529,7 @@ class Envelope<Real>::Cover {
 
   const Envelope& envelope_;
   const BoxFrame& frame_;
+  Real noise_ = 0;  // of heights on a slope like that of what is to be hidden
   std::size_t bodies_;
   int step_ = 1;  // a line has two ends
   std::array<Point, 4> corner_;
