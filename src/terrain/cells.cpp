@@ -567,7 +567,6 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p, const Box& box)
 template <class Real>
 void Cells<Real>::add_vertex(Point at) {
   Real z = below_everything;
-
   for (const Turn& t : turns_) {
     if (t.after == none) continue;
     // Near the rim heights fall like square roots; the rim's own height is as near to the surface.

@@ -47,6 +47,8 @@ class Envelope {
   Real smallest_cell() const { return smallest_cell_; }
   /// What is nearer to a wall than that counts as its foot or top; the same in both precisions.
   Real rim_width() const { return rim_width_; }
+  /// What is thinner than that on the surface is left out, however steep.
+  Real thickness() const { return thickness_; }
   /// Cells and stretches below this are left to the finer envelope, if there is one.
   Real fine_cell() const { return fine_cell_; }
   /// True if R is at least the extent.
@@ -167,7 +169,7 @@ class Envelope {
   GradientRange sphere_gradient(Point at, const Box& box, Real factor) const;
 
   PatchSet<Real>& patches_;
-  Real tolerance_, smallest_cell_, fine_cell_, smallest_stretch_, noise_, rim_width_, least_up_, thick_;
+  Real tolerance_, smallest_cell_, fine_cell_, smallest_stretch_, noise_, rim_width_, least_up_, thickness_;
   bool far_;
   SurfaceCounters& counters_;
   Envelope<DoubleDouble>* finer_;

@@ -49,7 +49,7 @@ void Envelope<Real>::drop_slivers(const Line& line, Index start, std::size_t fir
         continue;
       }
       const Real width = along * absolute(line.vertical ? n.y : n.x), rise = absolute(slope.x * n.x + slope.y * n.y);
-      if (width >= tolerance_ || width * rise >= thick_) return false;
+      if (width >= tolerance_ || width * rise >= thickness_) return false;
     }
     return true;
   };
