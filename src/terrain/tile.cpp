@@ -193,6 +193,7 @@ class ChainWriter {
     double straight = distance(points_.front(), points_.back());
     if (chain.end[0].kind == ChainEnd::Kind::arm && chain.end[1].kind == ChainEnd::Kind::arm) {
       const Point3 a = vertex_at(chain.end[0].index), b = vertex_at(chain.end[1].index);
+      if (goes_nowhere(a, b)) return;
       const double length = distance(a, points_.front()) + whole + distance(points_.back(), b);
       if (chord_tells(a, b, length)) return;
       if (length > bent * distance(a, b)) straight = 0;
@@ -211,6 +212,15 @@ class ChainWriter {
       }
     }
     chain.guide_count = std::uint8_t(tile_.guides.size() - chain.first_guide);
+  }
+
+  /// True if nothing of an edge is told apart from its two ends in the plane, and these not from each other. Beside a wall heights are known
+  /// to a root of rounding only, by which it would seem to go up and back.
+  bool goes_nowhere(Point3 a, Point3 b) const {
+    const double told_apart = 16 * envelope_.thickness();  // 2^-30 S
+    return distance(a, b) <= told_apart && std::all_of(points_.begin(), points_.end(), [&](Point3 p) {
+      return std::hypot(p.x - a.x, p.y - a.y) <= told_apart;
+    });
   }
 
   Point3 vertex_at(Index arm) const {
