@@ -62,7 +62,7 @@ void EdgeMap::locate(double x, double y, std::vector<Index>& faces, Index withou
       const double at = from.y + (x - from.x) / dx * dy, off = sag * std::hypot(dx, dy) / std::abs(dx);
       if (at < y) continue;  // a curve that passes on the other side of the place is near it
       hits.push_back({at - off, at + off, dx < 0 ? surface_.left_face(e) : surface_.right_face(e)});
-      top = std::min(top, at + off);
+      if (at - off > y) top = std::min(top, at + off);  // a curve that may pass below leaves the next ones above open
     }
     if (near) faces.push_back(surface_.left_face(e)), faces.push_back(surface_.right_face(e));
   };
