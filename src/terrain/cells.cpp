@@ -236,7 +236,9 @@ bool Cells<Real>::curve_is_simple(const Turn& t, const Box& box) const {
   if (is_simple(never_along)) return true;
   for (const auto& [steep, other] : {std::pair(t.before, t.after), std::pair(t.after, t.before)}) {
     if (steep == none || other == none || !is_upright(steep, t.at)) continue;
-    if (is_simple([&](Real x, Real y) { return envelope_.upright_derivative_range(steep, other, box, {x, y}).excludes_zero(); }))
+    if (is_simple([&](Real x, Real y) {
+          return envelope_.upright_derivative_range(steep, other, box, {x, y}).excludes_zero();
+        }))
       return true;
   }
   // Of two faces in one plane the first one shows wherever it is: along its straight sides.
@@ -250,7 +252,8 @@ bool Cells<Real>::curve_is_simple(const Turn& t, const Box& box) const {
   return false;
 }
 
-/// True if a wall from a turn to another place on it stays one: where the lower patch reaches its height the two meet in a valley.
+/// True if a wall from a turn to another place on it stays one: where the lower patch reaches its height the two meet
+/// in a valley.
 ///
 /// The lower patch is concave, so its tangents at the two ends bound it.
 template <class Real>
@@ -490,7 +493,8 @@ bool Cells<Real>::settle_star(const Box& box, bool smallest) {
   const std::optional<Point> found = star_point(box);
   if (!found && !smallest) return false;
   if (found && finer_ != nullptr && is_steep()) return false;
-  if (!smallest && !std::all_of(turns_.begin(), turns_.end(), [&](const Turn& t) { return stays_wall(t, *found, box); }))
+  if (!smallest &&
+      !std::all_of(turns_.begin(), turns_.end(), [&](const Turn& t) { return stays_wall(t, *found, box); }))
     return false;
   const Point p = found ? *found : least_gap(box);
   add_vertex(corner_beside(p, box).value_or(p));
@@ -545,7 +549,8 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p, const Box& box)
     if (t.after != none) steepest = std::max(steepest, patches[t.after].q);
   }
   // Sides that part like circles with slopes between them are so close together for that long.
-  Real least = std::max(0x1p-12 * patches.radius(), 4 * steepest * square_root(patches.radius() * envelope_.rim_width()));
+  Real least =
+      std::max(0x1p-12 * patches.radius(), 4 * steepest * square_root(patches.radius() * envelope_.rim_width()));
   for (std::size_t i = 0; i < turns_.size(); ++i) {
     const Turn &from = turns_[i], &to = turns_[(i + 1) % turns_.size()];
     Index patch = none;

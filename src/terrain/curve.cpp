@@ -70,9 +70,10 @@ Offset<Real> offset(const Contact<Real>& c, double radius, Vector<Real> p) {
   return {l - radius, l > 0 ? (1 / l) * away : Vector<Real>{0, 0, 1}};
 }
 
-/// Newton's method towards the curve where both distances are R, by the shortest way: along the mean of the two normals, and along
-/// their difference as far as rounding lets that be told and no farther than `reach`. Where the surfaces all but touch along a
-/// stretch, the curve is known across it no better than that. `sine`, if wanted: of the angle between the two surfaces there.
+/// Newton's method towards the curve where both distances are R, by the shortest way: along the mean of the two
+/// normals, and along their difference as far as rounding lets that be told and no farther than `reach`. Where the
+/// surfaces all but touch along a stretch, the curve is known across it no better than that. `sine`, if wanted: of the
+/// angle between the two surfaces there.
 template <class Real>
 Point3 project_to_valley(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 near, double reach,
                          double* sine = nullptr) {
@@ -87,7 +88,8 @@ Point3 project_to_valley(const Terrain& terrain, double radius, const Surface::E
       if (sine != nullptr) *sine = double(std::sqrt(square * dot(mean, mean)) / 2);
       const Real size = std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
       Vector<Real> step = -(f.value + g.value) / dot(mean, mean) * mean;
-      if (aside && std::fabs(difference) > 8 * precision * (size + Real(radius))) step = step + (-difference / square) * apart;
+      if (aside && std::fabs(difference) > 8 * precision * (size + Real(radius)))
+        step = step + (-difference / square) * apart;
       p = p + step;
       if (!(length(step) > precision * size)) break;
     }
@@ -209,7 +211,8 @@ double height_on_edge(const Terrain& terrain, double radius, const Surface::Edge
   if (count == 1) return found[0].z;
   const auto [a, b] = found;
   // Of nearly the same height the less steep one is known the better.
-  const bool first = std::fabs(a.z - b.z) <= 0x1p-14 * radius ? a.slope <= b.slope : std::fabs(a.z - p.z) <= std::fabs(b.z - p.z);
+  const bool first =
+      std::fabs(a.z - b.z) <= 0x1p-14 * radius ? a.slope <= b.slope : std::fabs(a.z - p.z) <= std::fabs(b.z - p.z);
   return first ? a.z : b.z;
 }
 

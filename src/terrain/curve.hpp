@@ -13,8 +13,8 @@ Point3 project_to_curve(const Terrain& terrain, double radius, const Surface::Ed
 /// True if a ball about p touches what it touches along the edge, to within `tolerance`.
 bool is_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 p, double tolerance);
 
-/// Height of the ball's centre over the place of p when it rests on the edge's features: on that by which it is nearer to p,
-/// where they differ.
+/// Height of the ball's centre over the place of p when it rests on the edge's features: on that by which it is nearer
+/// to p, where they differ.
 double height_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 p);
 
 }  // namespace krepl::terrain

@@ -7,7 +7,8 @@ namespace krepl::terrain {
 using FeatureKind = Terrain::FeatureKind;
 
 template <class Real>
-Envelope<Real>::Envelope(PatchSet<Real>& patches, double scale, SurfaceCounters& counters, Envelope<DoubleDouble>* finer)
+Envelope<Real>::Envelope(PatchSet<Real>& patches, double scale, SurfaceCounters& counters,
+                         Envelope<DoubleDouble>* finer)
     : patches_(patches),
       tolerance_(Precision<Real>::tolerance * scale),
       smallest_cell_(Precision<Real>::smallest_cell * scale),
@@ -97,7 +98,8 @@ Real Envelope<Real>::wall_height(Index i, Point p) const {
   const BoundSource source = along < 0 ? BoundSource::start : BoundSource::end;
   const auto bounds = patches_.bounds(i);
   const auto end = std::find_if(bounds.begin(), bounds.end(), [&](const Bound& b) { return b.source == source; });
-  const bool is_round = end != bounds.end() && end->partner != none && patches_[end->partner].kind == FeatureKind::vertex;
+  const bool is_round =
+      end != bounds.end() && end->partner != none && patches_[end->partner].kind == FeatureKind::vertex;
   return is_round ? rim_height(i, p) : axis_height(i, p);
 }
 
@@ -140,7 +142,8 @@ Meeting Envelope<Real>::meeting(Index a, Index b, Point p) const {
   const bool a_ends = rim_at(a, p) != nullptr, b_ends = rim_at(b, p) != nullptr;
   const Real difference = border_height(a, p) - border_height(b, p);
   if (!a_ends && !b_ends) {
-    // Heights that differ by more than they can beside a wall: a patch too thin to show lies between one of the two and its wall.
+    // Heights that differ by more than they can beside a wall: a patch too thin to show lies between one of the two and
+    // its wall.
     const Gradient g = patches_.gradient(a, p), h = patches_.gradient(b, p);
     const Real slack = 0x1p-14 * patches_.radius() + 64 * tolerance_ * norm(g.x - h.x, g.y - h.y);
     return absolute(difference) <= slack ? Meeting::valley : Meeting::rim;
@@ -208,7 +211,8 @@ RangeOf<Real> Envelope<Real>::upright_derivative_range(Index i, Index other, con
   const Real q = f.kind == FeatureKind::edge ? f.q : Real(1), dx = mid.x - f.at.x, dy = mid.y - f.at.y;
   const GradientRange g = gradient_range(other, box);
   const auto largest = [](Range r) { return std::max(absolute(r.low), absolute(r.high)); };
-  const Real spread = largest(g.x - Range{axis.x, axis.x}) * box.half_x() + largest(g.y - Range{axis.y, axis.y}) * box.half_y();
+  const Real spread =
+      largest(g.x - Range{axis.x, axis.x}) * box.half_x() + largest(g.y - Range{axis.y, axis.y}) * box.half_y();
   const Real level = clamped_height(other, mid) - (f.z + axis.x * dx + axis.y * dy);
   const Real rise = axis.x * d.x + axis.y * d.y;
   const Range inverse{1 / q, 1 / q}, over = Range{level - spread, level + spread} * inverse;

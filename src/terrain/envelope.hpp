@@ -86,15 +86,16 @@ class Envelope {
   GradientRange gradient_range(Index patch, const Box& box) const;
   /// Of the derivative of extended_height along a direction of the plane.
   Range derivative_range(Index patch, const Box& box, Gradient direction) const;
-  /// The same of a function that vanishes where a cylinder or sphere is as high as the other patch, and is smooth where it is upright:
-  /// half of a^2 + b^2 - R^2, with a the distance from its axis and b the other patch's height over the axis, measured across it.
+  /// The same of a function that vanishes where a cylinder or sphere is as high as the other patch, and is smooth where
+  /// it is upright: half of a^2 + b^2 - R^2, with a the distance from its axis and b the other patch's height over the
+  /// axis, measured across it.
   Range upright_derivative_range(Index patch, Index other, const Box& box, Gradient direction) const;
   /// The same of a cone, where the sphere is as high as the plane of the cone's circle.
   Range upright_derivative_range(const Bound& cone, const Box& box, Gradient direction) const;
   /// Height at which a patch ends in a wall: of the points that a ball touches with a horizontal normal.
   Real rim_height(Index patch, Point p) const;
-  /// The same as written. Beyond an end of an edge by less than is told apart the wall is that of the next edge, in nearly the same
-  /// line, unless a sphere is between them.
+  /// The same as written. Beyond an end of an edge by less than is told apart the wall is that of the next edge, in
+  /// nearly the same line, unless a sphere is between them.
   Real wall_height(Index patch, Point p) const;
   Gradient rim_gradient(Index patch) const;
   /// Gradient of a bound's function; steep but finite near the rim.
@@ -160,7 +161,8 @@ class Envelope {
                       Real& slack) const;
   Real outside(const Bound& wall, Point p) const;
   Real inset_of(Index body, const Wall& wall, const Box& box, const Real (&plane)[4]) const;
-  bool hidden_beyond(Index patch, const Wall& wall, Real inset, std::span<const Index> others, const BoxFrame& frame) const;
+  bool hidden_beyond(Index patch, const Wall& wall, Real inset, std::span<const Index> others,
+                     const BoxFrame& frame) const;
   bool back_to_back(const Bound& a, const Bound& b, const Box& box, Real inset) const;
   bool domain_covers(Index patch, const BoxFrame& box) const;
   bool domain_meets(Index patch, const BoxFrame& box) const;

@@ -46,8 +46,8 @@ RangeOf<Real> Envelope<Real>::bound_range(const Bound& b, const Box& box) const 
   return {extreme<1>(b, frame), -extreme<-1>(b, frame)};
 }
 
-/// Of a patch whose bounding rectangle meets the box. However little of it reaches into the box: beside a wall that may be much
-/// taller than it is wide.
+/// Of a patch whose bounding rectangle meets the box. However little of it reaches into the box: beside a wall that may
+/// be much taller than it is wide.
 template <class Real>
 inline bool Envelope<Real>::domain_meets(Index i, const BoxFrame& box) const {
   const Patch& f = patches_[i];
@@ -79,8 +79,9 @@ bool Envelope<Real>::lies_beyond(const Bound& b, const BoxFrame& f) const {
 
 /// True if the axis of an edge has places that a ball in the box may touch: the same for its ends.
 ///
-/// Where a sphere goes on beyond an end, the seam is tangent to the wall, and what is closer above the wall than is told apart may as
-/// well be the sphere's. Where none does, the next edge may be in nearly the same line, and what is left out would be missing.
+/// Where a sphere goes on beyond an end, the seam is tangent to the wall, and what is closer above the wall than is
+/// told apart may as well be the sphere's. Where none does, the next edge may be in nearly the same line, and what is
+/// left out would be missing.
 template <class Real>
 bool Envelope<Real>::axis_meets(Index i, const BoxFrame& box) const {
   const Patch& f = patches_[i];
@@ -109,8 +110,9 @@ bool Envelope<Real>::domain_meets(Index i, const Box& box) const {
 template <class Real>
 bool Envelope<Real>::covers(const Bound& b, const Box& box) const { return is_within(b, BoxFrame(box)); }
 
-/// Where a tangent plane bounds the patch well over a box: in its middle, but not closer to the rim than the box is wide, unless
-/// all of the box is. Beside the rim heights fall like square roots, and what matters is how far inside the box reaches across it.
+/// Where a tangent plane bounds the patch well over a box: in its middle, but not closer to the rim than the box is
+/// wide, unless all of the box is. Beside the rim heights fall like square roots, and what matters is how far inside
+/// the box reaches across it.
 template <class Real>
 inline PointOf<Real> Envelope<Real>::support_point(Index i, const BoxFrame& box) const {
   const Patch& f = patches_[i];
@@ -287,12 +289,14 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
   const Real beta = aside(k, frame.mid), square = patches_.square_radius();
   const Real spread = absolute(k.gx) * frame.hy + absolute(k.gy) * frame.hx;
   const Real near = std::max(Real(0), absolute(beta) - spread), far = absolute(beta) + spread;
-  Real up[2] = {square_root(std::max(Real(0), square - far * far)), square_root(std::max(Real(0), square - near * near))};
+  Real up[2] = {square_root(std::max(Real(0), square - far * far)),
+                square_root(std::max(Real(0), square - near * near))};
   // Where the lower one is nearer to its wall all over the box, it falls the faster the nearer: the least slope is enough.
   const bool inwards = std::all_of(apart, apart + 4, [&](Real e) { return beta > 0 ? e >= 0 : e <= 0; });
   Real slope[2] = {0, 0};
   // However little the lower one's wall is beyond the upper one's, what is beyond may be tall.
-  if (!is_fine<Real> && !inwards && widest > noise_ && widest <= tolerance_ / 4 && far + widest >= patches_.radius()) return false;
+  if (!is_fine<Real> && !inwards && widest > noise_ && widest <= tolerance_ / 4 && far + widest >= patches_.radius())
+    return false;
   if (widest > tolerance_ / 4) {
     const Real low = beta - spread - widest, high = beta + spread + widest;
     if (std::max(-low, high) < patches_.radius()) {
@@ -386,11 +390,13 @@ Real Envelope<Real>::outside(const Bound& wall, Point p) const {
   return wall.type == BoundType::disc ? value / (2 * patches_.radius()) : value;
 }
 
-/// True if the outlines of two bodies, moved inwards by `inset` in all, leave no gap between them in the box that is wide enough to show.
+/// True if the outlines of two bodies, moved inwards by `inset` in all, leave no gap between them in the box that is
+/// wide enough to show.
 template <class Real>
 bool Envelope<Real>::back_to_back(const Bound& a, const Bound& b, const Box& box, Real inset) const {
   for (const Point p : box.corners()) {
-    if (!(outside(a, p) + outside(b, p) + inset <= 2 * tolerance_)) return false;  // twice: lines round what they leave out
+    if (!(outside(a, p) + outside(b, p) + inset <= 2 * tolerance_))
+      return false;  // twice: lines round what they leave out
   }
   return true;
 }
@@ -507,7 +513,8 @@ class Envelope<Real>::Cover {
         const Body &a = body_[k], &b = body_[l];
         if (!a.ends && !b.ends && below_mean(a, b, t)) return true;
         // Two walls back to back: one of the bodies is there at every place that matters.
-        if (m[k] == m[l] && a.wall && b.wall && envelope_.back_to_back(a.wall->outline, b.wall->outline, frame_.box, 0)) {
+        if (m[k] == m[l] && a.wall && b.wall &&
+            envelope_.back_to_back(a.wall->outline, b.wall->outline, frame_.box, 0)) {
           return true;
         }
       }
@@ -601,28 +608,32 @@ bool Envelope<Real>::stays_hidden(Index c, const Box& box, std::span<const Index
   return stays_hidden(c, first, labels, depth - 1) && stays_hidden(c, second, labels, depth - 1);
 }
 
-/// How far inside its wall a body is as high as a plane all over the box, given by its heights at the corners; infinite if that is far.
+/// How far inside its wall a body is as high as a plane all over the box, given by its heights at the corners; infinite
+/// if that is far.
 template <class Real>
 Real Envelope<Real>::inset_of(Index body, const Wall& wall, const Box& box, const Real (&plane)[4]) const {
   const std::array<Point, 4> corner = box.corners();
   Real excess = 0;  // of the plane over the rim
-  for (int k = 0; k < 4; ++k) excess = std::max(excess, plane[k] - (rim_height(body, corner[k]) - wall.lowered + noise_));
+  for (int k = 0; k < 4; ++k)
+    excess = std::max(excess, plane[k] - (rim_height(body, corner[k]) - wall.lowered + noise_));
   const Patch& f = patches_[body];
   const Real up = excess / (f.kind == FeatureKind::edge ? f.q : Real(1)), square = up * up / patches_.square_radius();
   return square < 0.5 ? patches_.radius() * square / 2 * (1 + square) : Real(std::numeric_limits<double>::infinity());
 }
 
-/// True if what shows of a patch beyond the wall of a body that hides the rest is below another body: it lies in a strip along the patch's
-/// own wall, above which heights rise like square roots.
+/// True if what shows of a patch beyond the wall of a body that hides the rest is below another body: it lies in a
+/// strip along the patch's own wall, above which heights rise like square roots.
 template <class Real>
-bool Envelope<Real>::hidden_beyond(Index i, const Wall& wall, Real inset, std::span<const Index> others, const BoxFrame& frame) const {
+bool Envelope<Real>::hidden_beyond(Index i, const Wall& wall, Real inset, std::span<const Index> others,
+                                   const BoxFrame& frame) const {
   const Patch& f = patches_[i];
   const std::optional<Wall> own = wall_through(i, frame);
   if (!own) return false;
   const std::array<Point, 4> corner = frame.box.corners();
   Real width = 0;
   for (const Point p : corner) width = std::max(width, outside(wall.outline, p) + inset - outside(own->outline, p));
-  if (own->outline.type == BoundType::disc) width += 4 * (frame.hx * frame.hx + frame.hy * frame.hy) / (2 * patches_.radius());
+  if (own->outline.type == BoundType::disc)
+    width += 4 * (frame.hx * frame.hx + frame.hy * frame.hy) / (2 * patches_.radius());
   const Real up = square_root(2 * patches_.radius() * width);
   return std::any_of(others.begin(), others.end(), [&](Index other) {
     return std::all_of(corner.begin(), corner.end(), [&](Point p) {
@@ -632,8 +643,9 @@ bool Envelope<Real>::hidden_beyond(Index i, const Wall& wall, Real inset, std::s
   });
 }
 
-/// Bodies are concave, and so are weighted means of two of them: least against a plane at the corners of the box. What is
-/// hardly above the rims of two walls back to back is below the bodies soon inside of them, which rise there like square roots.
+/// Bodies are concave, and so are weighted means of two of them: least against a plane at the corners of the box. What
+/// is hardly above the rims of two walls back to back is below the bodies soon inside of them, which rise there like
+/// square roots.
 template <class Real>
 bool Envelope<Real>::hidden_within_tolerance(Index i, std::span<const Index> uppers, const Box& box) const {
   constexpr std::size_t most = 6;
@@ -647,7 +659,8 @@ bool Envelope<Real>::hidden_within_tolerance(Index i, std::span<const Index> upp
   std::array<Bound, most> wall;
   std::array<Real, most> inset;
   std::size_t count = 0, walls = 0;
-  const Real rim_up = square_root(patches_.radius() * rim_width_);  // above the foot of a wall, where both precisions leave out what shows
+  const Real rim_up = square_root(patches_.radius() *
+                                  rim_width_);  // above the foot of a wall, where both precisions leave out what shows
   for (std::size_t u = 0; u < uppers.size() && count < most && walls < most; ++u) {
     if (hidden_beside(i, uppers[u], frame, rim_up)) return true;
     bool reaches = true;

@@ -57,8 +57,8 @@ PointOf<Real> place_of(Point3 p) {
   return {p.x, p.y};
 }
 
-/// Triangles whose height is less than this part of a side: rounding makes much of their normals, which are computed with twice the
-/// digits. What bounds their patches from different sides would not fit together else.
+/// Triangles whose height is less than this part of a side: rounding makes much of their normals, which are computed
+/// with twice the digits. What bounds their patches from different sides would not fit together else.
 constexpr double thin = 0x1p-10;
 
 /// Where a place lies as seen along the edge from a to b: to the left, and up.

@@ -36,8 +36,8 @@ void Envelope<Real>::drop_slivers(const Line& line, Index start, std::size_t fir
     const Real length = size(g);
     return length > 0 ? Gradient{g.x / length, g.y / length} : Gradient{0, 0};
   };
-  // What is between the last crossing kept and the i-th. A line may run aslant through what is thin, and what is steep is thicker
-  // on the surface than it is wide in the plane.
+  // What is between the last crossing kept and the i-th. A line may run aslant through what is thin, and what is steep
+  // is thicker on the surface than it is wide in the plane.
   const auto is_thin = [&](std::size_t i) {
     const LineCrossing &a = crossings[kept - 1], &b = crossings[i];
     const Real along = b.t - a.t;
@@ -53,7 +53,8 @@ void Envelope<Real>::drop_slivers(const Line& line, Index start, std::size_t fir
     }
     return true;
   };
-  // A patch that ends in a wall falls like a root there: what of it lies beside the wall is much taller than it is wide.
+  // A patch that ends in a wall falls like a root there: what of it lies beside the wall is much taller than it is
+  // wide.
   const auto is_tall = [&](std::size_t i) {  // between the last crossing kept and the i-th
     const LineCrossing &a = crossings[i - 1], &b = crossings[i];
     const bool ends_first = a.meeting == Meeting::rim;

@@ -106,19 +106,22 @@ std::optional<PointOf<Real>> Cells<Real>::end_of_thin_bend(const Box& box) const
   return std::nullopt;
 }
 
-/// Where a patch between two others gets too thin to show, and the two go on side by side: where it comes into the cell, if it is
-/// hardly wider there than what is left out (the far turn tells that it is left out).
+/// Where a patch between two others gets too thin to show, and the two go on side by side: where it comes into the
+/// cell, if it is hardly wider there than what is left out (the far turn tells that it is left out).
 template <class Real>
 std::optional<PointOf<Real>> Cells<Real>::end_of_thin_strip() const {
   if (turns_.size() != 3) return std::nullopt;
   for (std::size_t i = 0; i < 3; ++i) {
     const Turn &from = turns_[i], &to = turns_[(i + 1) % 3], &beyond = turns_[(i + 2) % 3];
     const Gradient g = envelope_.gradient_across(from.before, from.after, from.meeting, from.at);
-    const Real dx = to.at.x - from.at.x, dy = to.at.y - from.at.y, apart = norm(dx, dy), tolerance = envelope_.tolerance();
+    const Real dx = to.at.x - from.at.x, dy = to.at.y - from.at.y, apart = norm(dx, dy),
+               tolerance = envelope_.tolerance();
     const Real across = absolute(g.x * dx + g.y * dy) / size(g);
     if (!(across <= 4 * tolerance && apart <= 64 * tolerance)) continue;
     // What is steep is thicker on the surface than it is wide in the plane.
-    if (from.after != none && !(across * size(envelope_.patches().gradient(from.after, from.at)) <= 4 * envelope_.thickness())) continue;
+    if (from.after != none &&
+        !(across * size(envelope_.patches().gradient(from.after, from.at)) <= 4 * envelope_.thickness()))
+      continue;
     if (!(2 * apart <= norm(beyond.at.x - from.at.x, beyond.at.y - from.at.y))) continue;
     const Point p{(from.at.x + to.at.x) / 2, (from.at.y + to.at.y) / 2};
     constexpr double inwards = 0x1p-10;  // so that the vertex lies in the cell

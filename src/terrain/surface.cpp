@@ -56,7 +56,8 @@ std::vector<Point3> Surface::curve(Index e, int points) const {
     const double t = length > 0 ? std::clamp((wanted - passed) / length, 0.0, 1.0) : 0.0;
     const Point3 p = base[piece - 1], q = base[piece];
     const Point3 near{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)};
-    Point3 on_curve = edge.curve == Curve::line ? near : terrain::project_to_curve(*terrain_, radius_, edge, near, whole);
+    Point3 on_curve =
+        edge.curve == Curve::line ? near : terrain::project_to_curve(*terrain_, radius_, edge, near, whole);
     if (distance(on_curve, near) > whole) on_curve = near;
     curve.push_back(on_curve);
   }

@@ -214,13 +214,13 @@ class ChainWriter {
     chain.guide_count = std::uint8_t(tile_.guides.size() - chain.first_guide);
   }
 
-  /// True if nothing of an edge is told apart from its two ends in the plane, and these not from each other. Beside a wall heights are known
-  /// to a root of rounding only, by which it would seem to go up and back.
+  /// True if nothing of an edge is told apart from its two ends in the plane, and these not from each other. Beside a
+  /// wall heights are known to a root of rounding only, by which it would seem to go up and back.
   bool goes_nowhere(Point3 a, Point3 b) const {
     const double told_apart = 16 * envelope_.thickness();  // 2^-30 S
     return distance(a, b) <= told_apart && std::all_of(points_.begin(), points_.end(), [&](Point3 p) {
-      return std::hypot(p.x - a.x, p.y - a.y) <= told_apart;
-    });
+             return std::hypot(p.x - a.x, p.y - a.y) <= told_apart;
+           });
   }
 
   Point3 vertex_at(Index arm) const {
