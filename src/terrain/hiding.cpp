@@ -577,11 +577,13 @@ void Envelope<Real>::filter(const Box& box, std::span<const Index> champions, st
   }
   if ((!small && !far_) || !others) return;
 
+  // Of features that lie beside each other as in grids little else is left in large boxes.
+  const bool by_feature = box.larger_side() < (patches_.are_of_graph() ? patches_.radius() / 64 : 2 * patches_.radius());
   Cover cover(*this, frame, champions);
   const auto is_hidden = [&](Index c) {
     if (small && cover.hides(c)) return true;
     if (far_ && hidden_by_balls(c, champions, box)) return true;
-    return small && hidden_by_feature(c, champions, frame);
+    return by_feature && hidden_by_feature(c, champions, frame);
   };
   std::size_t kept = begin;
   for (std::size_t i = begin; i < out.size(); ++i) {
