@@ -234,7 +234,8 @@ bool Cells<Real>::curve_is_simple(const Turn& t, const Box& box) const {
   };
   const auto is_simple = [](auto&& never) { return never(1, 0) || never(0, 1) || never(1, 1) || never(1, -1); };
   if (is_simple(never_along)) return true;
-  for (const auto& [steep, other] : {std::pair(t.before, t.after), std::pair(t.after, t.before)}) {
+  for (const Index steep : {t.before, t.after}) {
+    const Index other = steep == t.before ? t.after : t.before;
     if (steep == none || other == none || !is_upright(steep, t.at)) continue;
     if (is_simple([&](Real x, Real y) {
           return envelope_.upright_derivative_range(steep, other, box, {x, y}).excludes_zero();
