@@ -112,7 +112,7 @@ bool Cells<Real>::is_hard(const Box& box) const {
   const Real size_of_cell = box.larger_side();
   if (size_of_cell > envelope_.fine_cell()) return false;
   if (size_of_cell <= envelope_.fine_cell() / 64) return true;
-  constexpr double flat = 0x1p-7, steep = 16;
+  constexpr double flat = 0x1p-7;
   return std::any_of(turns_.begin(), turns_.end(), [&](const Turn& t) {
     if (t.meeting == Meeting::rim) return true;
     const Gradient g = envelope_.patches().gradient(t.before, t.at), h = envelope_.patches().gradient(t.after, t.at);
@@ -234,11 +234,11 @@ bool Cells<Real>::curve_is_simple(const Turn& t, const Box& box) const {
   };
   const auto is_simple = [](auto&& never) { return never(1, 0) || never(0, 1) || never(1, 1) || never(1, -1); };
   if (is_simple(never_along)) return true;
-  for (const Index steep : {t.before, t.after}) {
-    const Index other = steep == t.before ? t.after : t.before;
-    if (steep == none || other == none || !is_upright(steep, t.at)) continue;
+  for (const Index upright : {t.before, t.after}) {
+    const Index other = upright == t.before ? t.after : t.before;
+    if (upright == none || other == none || !is_upright(upright, t.at)) continue;
     if (is_simple([&](Real x, Real y) {
-          return envelope_.upright_derivative_range(steep, other, box, {x, y}).excludes_zero();
+          return envelope_.upright_derivative_range(upright, other, box, {x, y}).excludes_zero();
         }))
       return true;
   }
@@ -376,7 +376,7 @@ bool Cells<Real>::corner_in(Index patch, const Box& box) const {
 template <class Real>
 bool Cells<Real>::is_upright(Index patch, Point p) const {
   const PatchSet<Real>& patches = envelope_.patches();
-  return patches[patch].kind != Terrain::FeatureKind::face && size(patches.gradient(patch, p)) > 16;
+  return patches[patch].kind != Terrain::FeatureKind::face && size(patches.gradient(patch, p)) > steep;
 }
 
 /// How far the curve from a turn to another place on it can be from its chord within the box; infinite if that is not known.
@@ -399,16 +399,17 @@ Real Cells<Real>::bend(const Turn& turn, Point end, const Box& box) const {
     if (side->type == BoundType::line) return 0;
     const GradientRange g = envelope_.bound_gradient_range(*side, box);
     const Real least = bent([&](Gradient d) { return g.x * Range{d.x, d.x} + g.y * Range{d.y, d.y}; });
-    if (side->type != BoundType::cone || size(envelope_.bound_gradient(*side, turn.at)) < 16) return least;
+    if (side->type != BoundType::cone || size(envelope_.bound_gradient(*side, turn.at)) < steep) return least;
     return std::min(least, bent([&](Gradient d) { return envelope_.upright_derivative_range(*side, box, d); }));
   }
   Real least = bent([&](Gradient d) {
     return envelope_.derivative_range(turn.before, box, d) - envelope_.derivative_range(turn.after, box, d);
   });
-  for (const Index steep : {turn.before, turn.after}) {
-    if (!is_upright(steep, turn.at)) continue;
-    const Index other = steep == turn.before ? turn.after : turn.before;
-    least = std::min(least, bent([&](Gradient d) { return envelope_.upright_derivative_range(steep, other, box, d); }));
+  for (const Index upright : {turn.before, turn.after}) {
+    if (!is_upright(upright, turn.at)) continue;
+    const Index other = upright == turn.before ? turn.after : turn.before;
+    least =
+        std::min(least, bent([&](Gradient d) { return envelope_.upright_derivative_range(upright, other, box, d); }));
   }
   return least;
 }
@@ -509,7 +510,7 @@ bool Cells<Real>::is_steep() const {
   const PatchSet<Real>& patches = envelope_.patches();
   return std::any_of(turns_.begin(), turns_.end(), [&](const Turn& t) {
     if (t.after == none || patches[t.after].kind != Terrain::FeatureKind::face) return false;
-    return patches[t.after].q > 16 && patches[t.after].q < 0x1p20;
+    return patches[t.after].q > steep && patches[t.after].q < 0x1p20;
   });
 }
 

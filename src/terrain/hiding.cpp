@@ -1,44 +1,11 @@
 #include <algorithm>
 
-#include "terrain/envelope.hpp"
+#include "terrain/box_frame.hpp"
 
 // Which patches cannot show in a box: outside of their domains, or hidden below the bodies of others.
 namespace krepl::terrain {
 
 using FeatureKind = Terrain::FeatureKind;
-
-template <class Real>
-struct Envelope<Real>::BoxFrame {
-  explicit BoxFrame(const Box& b) : box(b), mid(b.middle()), hx(b.half_x()), hy(b.half_y()) {}
-  const Box& box;
-  Point mid;
-  Real hx, hy;
-};
-
-/// The least value of a bound's function over a box (sign = 1), or the greatest one with its sign changed (sign = -1), a bit
-/// less for rounding. `least_up`: of the height over the rim that a cone's value depends on.
-template <class Real>
-template <int sign>
-inline Real Envelope<Real>::extreme(const Bound& b, const BoxFrame& f, Real least_up) const {
-  const Real dx = f.mid.x - b.at.x, dy = f.mid.y - b.at.y;
-  const Real slack = Precision<Real>::rounding * (absolute(dx) + absolute(dy) + f.hx + f.hy);
-  if (b.type == BoundType::line) {
-    return sign * (dx * b.nx + dy * b.ny - b.c) - (absolute(b.nx) * f.hx + absolute(b.ny) * f.hy + slack);
-  }
-  const Real square = patches_.square_radius();
-  const Real near_x = std::max(Real(0), absolute(dx) - f.hx), near_y = std::max(Real(0), absolute(dy) - f.hy);
-  const Real far_x = absolute(dx) + f.hx, far_y = absolute(dy) + f.hy;
-  const Real near = near_x * near_x + near_y * near_y, far = far_x * far_x + far_y * far_y;
-  if (b.type == BoundType::disc) return (sign > 0 ? near - square : square - far) - 2 * slack * (far_x + far_y);
-  const Real lift = sign * b.c, up = std::max(least_up, square_root(std::max(Real(0), square - (lift >= 0 ? far : near))));
-  return sign * (dx * b.nx + dy * b.ny) - (absolute(b.nx) * f.hx + absolute(b.ny) * f.hy + slack) + lift * up;
-}
-
-/// True if the patch's side of the bound is all of the box.
-template <class Real>
-inline bool Envelope<Real>::is_within(const Bound& b, const BoxFrame& f, Real least_up) const {
-  return b.negative ? extreme<-1>(b, f, least_up) > 0 : extreme<1>(b, f, least_up) >= 0;
-}
 
 template <class Real>
 RangeOf<Real> Envelope<Real>::bound_range(const Bound& b, const Box& box) const {
@@ -144,7 +111,7 @@ typename Envelope<Real>::Plane Envelope<Real>::plane_of(const Patch& face, Point
 /// True if a face's plane says little about its height within a large box.
 template <class Real>
 bool Envelope<Real>::is_steep(const Patch& f) const {
-  return f.kind == FeatureKind::face && absolute(f.gx) + absolute(f.gy) >= 16;
+  return f.kind == FeatureKind::face && absolute(f.gx) + absolute(f.gy) >= steep;
 }
 
 /// A linear function that is nowhere in the part of the box in the patch's domain below the patch.
@@ -187,26 +154,6 @@ bool Envelope<Real>::domain_covers(Index i, const BoxFrame& box) const {
   return true;
 }
 
-/// The one wall at which the patch's body ends within the box, if there is one and nothing else of the body's outline
-/// meets the box. Inside of it the body is at least as high as its rim: a ball as its centre, a cigar as its axis
-/// beside the place. A bit beyond an edge's ends its line is as good an outline as the circle there.
-template <class Real>
-std::optional<typename Envelope<Real>::Wall> Envelope<Real>::wall_through(Index i, const BoxFrame& box) const {
-  const Patch& f = patches_[i];
-  if (f.kind == FeatureKind::vertex) return Wall{{f.at, 0, 0, 0, BoundType::disc, true, none, true, BoundSource::rim, none}, 0};
-  if (f.kind == FeatureKind::face) return std::nullopt;
-  const Real dx = box.mid.x - f.at.x, dy = box.mid.y - f.at.y, along = dx * f.gx + dy * f.gy;
-  const Real spread = absolute(f.gx) * box.hx + absolute(f.gy) * box.hy + noise_;
-  const Real beyond = std::max({Real(0), spread - along, along + spread - f.length});
-  if (beyond * beyond > patches_.radius() * tolerance_ / 4) return std::nullopt;
-  const Real aside = dy * f.gx - dx * f.gy;
-  const bool left = aside > 0;
-  // The wall on the other side.
-  if (absolute(f.gx) * box.hy + absolute(f.gy) * box.hx - absolute(aside) >= patches_.radius()) return std::nullopt;
-  const Real limit = left ? patches_.radius() : -patches_.radius();
-  return Wall{{f.at, -f.gy, f.gx, limit, BoundType::line, left, none, true, BoundSource::rim, none}, absolute(f.m) * beyond};
-}
-
 template <class Real>
 std::optional<BoundOf<Real>> Envelope<Real>::wall_above(Index upper, Index lower, const Box& box) const {
   const BoxFrame frame(box);
@@ -221,184 +168,6 @@ std::optional<BoundOf<Real>> Envelope<Real>::wall_above(Index upper, Index lower
     }
   }
   return wall->outline;
-}
-
-/// True if the patch lies on the inner side of another one's wall within the box, as far as matters.
-template <class Real>
-bool Envelope<Real>::ends_before(Index i, const Bound& wall, const Box& box) const {
-  const Patch& f = patches_[i];
-  const Real tolerance = tolerance_ / 4;
-  if (wall.type == BoundType::line) {
-    for (const Bound& b : patches_.bounds(i)) {  // its own straight side runs along the wall
-      if (b.type != BoundType::line) continue;
-      const Real s = -b.sign(), w = -wall.sign();
-      const Point m = box.middle();
-      const Real excess = s * b.value(m, 0) - w * wall.value(m, 0);
-      const Real spread = absolute(s * b.nx - w * wall.nx) * box.half_x() + absolute(s * b.ny - w * wall.ny) * box.half_y();
-      if (excess + spread <= noise_) return true;
-    }
-  }
-  if (wall.type == BoundType::disc) {
-    const auto is_centre = [&](Point p) { return norm(p.x - wall.at.x, p.y - wall.at.y) <= tolerance; };
-    if (f.kind != FeatureKind::edge) return f.kind == FeatureKind::vertex && is_centre(f.at);
-    // Beyond its end an edge's body is a ball.
-    const Point mid = box.middle();
-    const Real along = (mid.x - f.at.x) * f.gx + (mid.y - f.at.y) * f.gy;
-    const Real spread =
-        absolute(f.gx) * box.half_x() + absolute(f.gy) * box.half_y() - square_root(patches_.radius() * tolerance);
-    if (along + spread <= 0) return is_centre(f.at);
-    return along - spread >= f.length && is_centre(f.end());
-  }
-  const auto beyond = [&](Point p) {  // of the edge's line, towards the wall
-    const Real aside = (p.x - wall.at.x) * wall.nx + (p.y - wall.at.y) * wall.ny;
-    return wall.negative ? aside : -aside;
-  };
-  if (f.kind == FeatureKind::vertex) return beyond(f.at) <= tolerance;
-  if (f.kind == FeatureKind::edge) {
-    return beyond(f.at) <= tolerance && beyond(f.end()) <= tolerance;
-  }
-  for (const Point c : patches_.corners(i)) {
-    if (beyond(c) > patches_.radius() + tolerance) return false;
-  }
-  return true;
-}
-
-/// Two edges that run beside or above each other, as seen from above. With u(b) = sqrt(R^2 - b^2) for the distance b
-/// from one axis and b + e from the other, and s between b / u(b) at the two, their heights differ by
-///   level + (q_k - q_c) u(b) + q_c e s,
-/// where level and e are linear in the place. `least_up`: of u; what shows nearer to the wall does not matter.
-template <class Real>
-bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up) const {
-  const Patch &c = patches_[lower], &k = patches_[upper];
-  if (c.kind != FeatureKind::edge || k.kind != FeatureKind::edge) return false;
-  if (absolute(c.gx * k.gy - c.gy * k.gx) > 0x1p-8) return false;
-  const auto aside = [](const Patch& f, Point p) { return (p.y - f.at.y) * f.gx - (p.x - f.at.x) * f.gy; };
-  const Real turn = c.gx * k.gx + c.gy * k.gy > 0 ? 1 : -1;
-  const Real farthest = 0x1p-4 * patches_.radius();
-  if (absolute(turn * aside(c, frame.mid) - aside(k, frame.mid)) > farthest) return false;
-  const std::array<Point, 4> corner = frame.box.corners();
-  Real apart[4], widest = 0;
-  for (int i = 0; i < 4; ++i) {
-    apart[i] = turn * aside(c, corner[i]) - aside(k, corner[i]);
-    widest = std::max(widest, absolute(apart[i]));
-  }
-  if (widest > farthest) return false;
-  for (const Bound& b : patches_.bounds(upper)) {
-    if (b.type == BoundType::cone && !is_within(b, frame, least_up)) return false;
-  }
-  const Real beta = aside(k, frame.mid), square = patches_.square_radius();
-  const Real spread = absolute(k.gx) * frame.hy + absolute(k.gy) * frame.hx;
-  const Real near = std::max(Real(0), absolute(beta) - spread), far = absolute(beta) + spread;
-  Real up[2] = {square_root(std::max(Real(0), square - far * far)),
-                square_root(std::max(Real(0), square - near * near))};
-  // Where the lower one is nearer to its wall all over the box, it falls the faster the nearer: the least slope is enough.
-  const bool inwards = std::all_of(apart, apart + 4, [&](Real e) { return beta > 0 ? e >= 0 : e <= 0; });
-  Real slope[2] = {0, 0};
-  // However little the lower one's wall is beyond the upper one's, what is beyond may be tall.
-  if (!is_fine<Real> && !inwards && widest > noise_ && widest <= tolerance_ / 4 && far + widest >= patches_.radius())
-    return false;
-  if (widest > tolerance_ / 4) {
-    const Real low = beta - spread - widest, high = beta + spread + widest;
-    if (std::max(-low, high) < patches_.radius()) {
-      slope[0] = low / square_root(square - low * low);
-      slope[1] = high / square_root(square - high * high);
-    } else if (!inwards || absolute(beta) <= spread) {
-      return false;
-    } else {
-      slope[0] = slope[1] = (beta > 0 ? near : -near) / square_root(square - near * near);
-    }
-  }
-  // A ball touches the lower edge between its ends: that tells how high it can be above the axis there.
-  Real lowest = least_up;
-  if (c.m != 0) {
-    const auto along = [&](Point p) { return (p.x - c.at.x) * c.gx + (p.y - c.at.y) * c.gy; };
-    const Real a[4] = {along(corner[0]), along(corner[1]), along(corner[2]), along(corner[3])};
-    const Real first = std::min({a[0], a[1], a[2], a[3]}), last = std::max({a[0], a[1], a[2], a[3]});
-    const Real slack = widest * std::max(absolute(slope[0]), absolute(slope[1])), scale = absolute(c.m * c.flat);
-    lowest = std::max(lowest, (c.m > 0 ? -last : first - c.length) / scale - slack);
-    for (Real& u : up) u = std::min(u, (c.m > 0 ? c.length - first : last) / scale + slack);
-  }
-  for (Real& u : up) u = std::max(u, lowest);
-  for (int i = 0; i < 4; ++i) {
-    const Real level = axis_height(upper, corner[i]) - axis_height(lower, corner[i]);
-    for (const Real s : slope) {
-      for (const Real u : up) {
-        if (!(level + (k.q - c.q) * u + c.q * apart[i] * s > noise_)) return false;
-      }
-    }
-  }
-  return true;
-}
-
-/// True if no point of the lower patch lies above the upper one's plane, however tangent to it: with N the plane's normal and
-/// the ball's centre at a + R n, n a unit normal of an edge along d, N.a + R N.n is at most N.a + R sqrt(1 - (N.d)^2).
-template <class Real>
-bool Envelope<Real>::hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const {
-  const Patch &c = patches_[lower], &k = patches_[upper];
-  if (k.kind != FeatureKind::face || c.kind == FeatureKind::face) return false;
-  Real most = 1;  // of N.n
-  if (c.kind == FeatureKind::edge) {
-    const Real x = k.gy * c.m + c.gy, y = c.gx + k.gx * c.m, z = k.gy * c.gx - k.gx * c.gy;  // N x d
-    most = square_root(x * x + y * y + z * z) * (k.flat * c.flat);
-  }
-  const Real reach = most * patches_.radius() * k.q, slack = noise_ * k.q;
-  const auto above = [&](Point p, Real z) {
-    return z + reach - (k.z + k.gx * (p.x - k.at.x) + k.gy * (p.y - k.at.y)) > slack;
-  };
-  if (above(c.at, c.z)) return false;
-  if (c.kind == FeatureKind::edge && above(c.end(), c.end_z())) return false;
-  return domain_covers(upper, frame);
-}
-
-/// True if the lower patch's feature lies in the upper one's or straight below it, and is no part of its border: then so does
-/// all that a ball touches with it.
-template <class Real>
-bool Envelope<Real>::lies_in(Index lower, Index upper) const {
-  const Patch &c = patches_[lower], &k = patches_[upper];
-  if (c.kind == FeatureKind::face || c.kind > k.kind || k.kind == FeatureKind::vertex) return false;
-  const Real tolerance = tolerance_ / 4;
-  const Point a = c.at, b = c.end();
-  const Real top_a = c.z, top_b = c.end_z();
-  if (k.kind == FeatureKind::edge) {
-    const auto along = [&](Point p) { return (p.x - k.at.x) * k.gx + (p.y - k.at.y) * k.gy; };
-    const auto holds = [&](Point p, Real z) {
-      const Real t = along(p);
-      return absolute((p.y - k.at.y) * k.gx - (p.x - k.at.x) * k.gy) <= tolerance && t >= -tolerance &&
-             t <= k.length + tolerance && z <= k.z + k.m * t + noise_;
-    };
-    if (c.kind == FeatureKind::vertex) return holds(a, top_a) && along(a) > tolerance_ && along(a) < k.length - tolerance_;
-    return c.length < k.length - tolerance_ && holds(a, top_a) && holds(b, top_b);
-  }
-  // A face's patch is the face itself, moved by R along its normal.
-  const Real rise = patches_.radius() * k.flat;
-  const auto holds = [&](Point p, Real z, Real margin) {
-    if (z > k.z - rise + k.gx * (p.x - k.at.x - k.gx * rise) + k.gy * (p.y - k.at.y - k.gy * rise) + noise_ * k.q) return false;
-    for (const Bound& side : patches_.bounds(upper)) {
-      if (side.sign() * side.value({p.x - k.gx * rise, p.y - k.gy * rise}, 0) > -margin) return false;
-    }
-    return true;
-  };
-  if (c.kind == FeatureKind::vertex) return holds(a, top_a, tolerance_);
-  const Point middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
-  return holds(middle, (top_a + top_b) / 2, tolerance_) && holds(a, top_a, -tolerance) && holds(b, top_b, -tolerance);
-}
-
-/// How far a place is outside of a wall, beside it; at most a convex function of the place.
-template <class Real>
-Real Envelope<Real>::outside(const Bound& wall, Point p) const {
-  const Real value = wall.sign() * wall.value(p, patches_.square_radius());
-  return wall.type == BoundType::disc ? value / (2 * patches_.radius()) : value;
-}
-
-/// True if the outlines of two bodies, moved inwards by `inset` in all, leave no gap between them in the box that is
-/// wide enough to show.
-template <class Real>
-bool Envelope<Real>::back_to_back(const Bound& a, const Bound& b, const Box& box, Real inset) const {
-  for (const Point p : box.corners()) {
-    if (!(outside(a, p) + outside(b, p) + inset <= 2 * tolerance_))
-      return false;  // twice: lines round what they leave out
-  }
-  return true;
 }
 
 /// The bodies of a few labels over a box, evaluated at its corners as far as needed: a concave height is least at a
@@ -543,17 +312,6 @@ class Envelope<Real>::Cover {
   Body body_[most];
 };
 
-/// True if one of the upper features hides the patch by the way the two lie to each other.
-template <class Real>
-bool Envelope<Real>::hidden_by_feature(Index lower, std::span<const Index> uppers, const BoxFrame& frame) const {
-  for (const Index k : uppers) {
-    if (hidden_beside(lower, k, frame) || hidden_below_face(lower, k, frame)) return true;
-    if (!patches_.are_of_graph() && lies_in(lower, k)) return true;
-    if (is_fine<Real> && hidden_by_axis(lower, k, frame.box)) return true;
-  }
-  return false;
-}
-
 template <class Real>
 void Envelope<Real>::filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
                       std::vector<Index>& out) const {
@@ -608,41 +366,6 @@ bool Envelope<Real>::stays_hidden(Index c, const Box& box, std::span<const Index
   if (frame.hx > frame.hy) first.high.x = second.low.x = frame.mid.x;
   else first.high.y = second.low.y = frame.mid.y;
   return stays_hidden(c, first, labels, depth - 1) && stays_hidden(c, second, labels, depth - 1);
-}
-
-/// How far inside its wall a body is as high as a plane all over the box, given by its heights at the corners; infinite
-/// if that is far.
-template <class Real>
-Real Envelope<Real>::inset_of(Index body, const Wall& wall, const Box& box, const Real (&plane)[4]) const {
-  const std::array<Point, 4> corner = box.corners();
-  Real excess = 0;  // of the plane over the rim
-  for (int k = 0; k < 4; ++k)
-    excess = std::max(excess, plane[k] - (rim_height(body, corner[k]) - wall.lowered + noise_));
-  const Patch& f = patches_[body];
-  const Real up = excess / (f.kind == FeatureKind::edge ? f.q : Real(1)), square = up * up / patches_.square_radius();
-  return square < 0.5 ? patches_.radius() * square / 2 * (1 + square) : Real(std::numeric_limits<double>::infinity());
-}
-
-/// True if what shows of a patch beyond the wall of a body that hides the rest is below another body: it lies in a
-/// strip along the patch's own wall, above which heights rise like square roots.
-template <class Real>
-bool Envelope<Real>::hidden_beyond(Index i, const Wall& wall, Real inset, std::span<const Index> others,
-                                   const BoxFrame& frame) const {
-  const Patch& f = patches_[i];
-  const std::optional<Wall> own = wall_through(i, frame);
-  if (!own) return false;
-  const std::array<Point, 4> corner = frame.box.corners();
-  Real width = 0;
-  for (const Point p : corner) width = std::max(width, outside(wall.outline, p) + inset - outside(own->outline, p));
-  if (own->outline.type == BoundType::disc)
-    width += 4 * (frame.hx * frame.hx + frame.hy * frame.hy) / (2 * patches_.radius());
-  const Real up = square_root(2 * patches_.radius() * width);
-  return std::any_of(others.begin(), others.end(), [&](Index other) {
-    return std::all_of(corner.begin(), corner.end(), [&](Point p) {
-      const Real strip = f.kind == FeatureKind::edge ? axis_height(i, p) + f.q * up : f.z + up;
-      return patches_.body_height(other, p) - noise_ > strip;
-    });
-  });
 }
 
 /// Bodies are concave, and so are weighted means of two of them: least against a plane at the corners of the box. What

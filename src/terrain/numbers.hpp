@@ -33,6 +33,9 @@ Real norm(Real x, Real y) {
 /// Of the height above the rim where gradients are taken, relative to R: they are steep, but finite.
 constexpr double least_square = 1e-12;
 
+/// Slopes from which on heights in double, and tests on gradients, tell little.
+constexpr double steep = 16;
+
 /// Lengths relative to S, the scale of the accuracy contract, and to R.
 template <class Real>
 struct Precision;

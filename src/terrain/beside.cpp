@@ -1,0 +1,144 @@
+#include <algorithm>
+
+#include "terrain/box_frame.hpp"
+
+// Features that hide others by the way the two lie to each other: side by side, above one another.
+namespace krepl::terrain {
+
+using FeatureKind = Terrain::FeatureKind;
+
+/// Two edges that run beside or above each other, as seen from above. With u(b) = sqrt(R^2 - b^2) for the distance b
+/// from one axis and b + e from the other, and s between b / u(b) at the two, their heights differ by
+///   level + (q_k - q_c) u(b) + q_c e s,
+/// where level and e are linear in the place. `least_up`: of u; what shows nearer to the wall does not matter.
+template <class Real>
+bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up) const {
+  const Patch &c = patches_[lower], &k = patches_[upper];
+  if (c.kind != FeatureKind::edge || k.kind != FeatureKind::edge) return false;
+  if (absolute(c.gx * k.gy - c.gy * k.gx) > 0x1p-8) return false;
+  const auto aside = [](const Patch& f, Point p) { return (p.y - f.at.y) * f.gx - (p.x - f.at.x) * f.gy; };
+  const Real turn = c.gx * k.gx + c.gy * k.gy > 0 ? 1 : -1;
+  const Real farthest = 0x1p-4 * patches_.radius();
+  if (absolute(turn * aside(c, frame.mid) - aside(k, frame.mid)) > farthest) return false;
+  const std::array<Point, 4> corner = frame.box.corners();
+  Real apart[4], widest = 0;
+  for (int i = 0; i < 4; ++i) {
+    apart[i] = turn * aside(c, corner[i]) - aside(k, corner[i]);
+    widest = std::max(widest, absolute(apart[i]));
+  }
+  if (widest > farthest) return false;
+  for (const Bound& b : patches_.bounds(upper)) {
+    if (b.type == BoundType::cone && !is_within(b, frame, least_up)) return false;
+  }
+  const Real beta = aside(k, frame.mid), square = patches_.square_radius();
+  const Real spread = absolute(k.gx) * frame.hy + absolute(k.gy) * frame.hx;
+  const Real near = std::max(Real(0), absolute(beta) - spread), far = absolute(beta) + spread;
+  Real up[2] = {square_root(std::max(Real(0), square - far * far)),
+                square_root(std::max(Real(0), square - near * near))};
+  // Where the lower one is nearer to its wall all over the box, it falls the faster the nearer: the least slope is enough.
+  const bool inwards = std::all_of(apart, apart + 4, [&](Real e) { return beta > 0 ? e >= 0 : e <= 0; });
+  Real slope[2] = {0, 0};
+  // However little the lower one's wall is beyond the upper one's, what is beyond may be tall.
+  if (!is_fine<Real> && !inwards && widest > noise_ && widest <= tolerance_ / 4 && far + widest >= patches_.radius())
+    return false;
+  if (widest > tolerance_ / 4) {
+    const Real low = beta - spread - widest, high = beta + spread + widest;
+    if (std::max(-low, high) < patches_.radius()) {
+      slope[0] = low / square_root(square - low * low);
+      slope[1] = high / square_root(square - high * high);
+    } else if (!inwards || absolute(beta) <= spread) {
+      return false;
+    } else {
+      slope[0] = slope[1] = (beta > 0 ? near : -near) / square_root(square - near * near);
+    }
+  }
+  // A ball touches the lower edge between its ends: that tells how high it can be above the axis there.
+  Real lowest = least_up;
+  if (c.m != 0) {
+    const auto along = [&](Point p) { return (p.x - c.at.x) * c.gx + (p.y - c.at.y) * c.gy; };
+    const Real a[4] = {along(corner[0]), along(corner[1]), along(corner[2]), along(corner[3])};
+    const Real first = std::min({a[0], a[1], a[2], a[3]}), last = std::max({a[0], a[1], a[2], a[3]});
+    const Real slack = widest * std::max(absolute(slope[0]), absolute(slope[1])), scale = absolute(c.m * c.flat);
+    lowest = std::max(lowest, (c.m > 0 ? -last : first - c.length) / scale - slack);
+    for (Real& u : up) u = std::min(u, (c.m > 0 ? c.length - first : last) / scale + slack);
+  }
+  for (Real& u : up) u = std::max(u, lowest);
+  for (int i = 0; i < 4; ++i) {
+    const Real level = axis_height(upper, corner[i]) - axis_height(lower, corner[i]);
+    for (const Real s : slope) {
+      for (const Real u : up) {
+        if (!(level + (k.q - c.q) * u + c.q * apart[i] * s > noise_)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// True if no point of the lower patch lies above the upper one's plane, however tangent to it: with N the plane's normal and
+/// the ball's centre at a + R n, n a unit normal of an edge along d, N.a + R N.n is at most N.a + R sqrt(1 - (N.d)^2).
+template <class Real>
+bool Envelope<Real>::hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const {
+  const Patch &c = patches_[lower], &k = patches_[upper];
+  if (k.kind != FeatureKind::face || c.kind == FeatureKind::face) return false;
+  Real most = 1;  // of N.n
+  if (c.kind == FeatureKind::edge) {
+    const Real x = k.gy * c.m + c.gy, y = c.gx + k.gx * c.m, z = k.gy * c.gx - k.gx * c.gy;  // N x d
+    most = square_root(x * x + y * y + z * z) * (k.flat * c.flat);
+  }
+  const Real reach = most * patches_.radius() * k.q, slack = noise_ * k.q;
+  const auto above = [&](Point p, Real z) {
+    return z + reach - (k.z + k.gx * (p.x - k.at.x) + k.gy * (p.y - k.at.y)) > slack;
+  };
+  if (above(c.at, c.z)) return false;
+  if (c.kind == FeatureKind::edge && above(c.end(), c.end_z())) return false;
+  return domain_covers(upper, frame);
+}
+
+/// True if the lower patch's feature lies in the upper one's or straight below it, and is no part of its border: then so does
+/// all that a ball touches with it.
+template <class Real>
+bool Envelope<Real>::lies_in(Index lower, Index upper) const {
+  const Patch &c = patches_[lower], &k = patches_[upper];
+  if (c.kind == FeatureKind::face || c.kind > k.kind || k.kind == FeatureKind::vertex) return false;
+  const Real tolerance = tolerance_ / 4;
+  const Point a = c.at, b = c.end();
+  const Real top_a = c.z, top_b = c.end_z();
+  if (k.kind == FeatureKind::edge) {
+    const auto along = [&](Point p) { return (p.x - k.at.x) * k.gx + (p.y - k.at.y) * k.gy; };
+    const auto holds = [&](Point p, Real z) {
+      const Real t = along(p);
+      return absolute((p.y - k.at.y) * k.gx - (p.x - k.at.x) * k.gy) <= tolerance && t >= -tolerance &&
+             t <= k.length + tolerance && z <= k.z + k.m * t + noise_;
+    };
+    if (c.kind == FeatureKind::vertex) return holds(a, top_a) && along(a) > tolerance_ && along(a) < k.length - tolerance_;
+    return c.length < k.length - tolerance_ && holds(a, top_a) && holds(b, top_b);
+  }
+  // A face's patch is the face itself, moved by R along its normal.
+  const Real rise = patches_.radius() * k.flat;
+  const auto holds = [&](Point p, Real z, Real margin) {
+    if (z > k.z - rise + k.gx * (p.x - k.at.x - k.gx * rise) + k.gy * (p.y - k.at.y - k.gy * rise) + noise_ * k.q) return false;
+    for (const Bound& side : patches_.bounds(upper)) {
+      if (side.sign() * side.value({p.x - k.gx * rise, p.y - k.gy * rise}, 0) > -margin) return false;
+    }
+    return true;
+  };
+  if (c.kind == FeatureKind::vertex) return holds(a, top_a, tolerance_);
+  const Point middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
+  return holds(middle, (top_a + top_b) / 2, tolerance_) && holds(a, top_a, -tolerance) && holds(b, top_b, -tolerance);
+}
+
+/// True if one of the upper features hides the patch by the way the two lie to each other.
+template <class Real>
+bool Envelope<Real>::hidden_by_feature(Index lower, std::span<const Index> uppers, const BoxFrame& frame) const {
+  for (const Index k : uppers) {
+    if (hidden_beside(lower, k, frame) || hidden_below_face(lower, k, frame)) return true;
+    if (!patches_.are_of_graph() && lies_in(lower, k)) return true;
+    if (is_fine<Real> && hidden_by_axis(lower, k, frame.box)) return true;
+  }
+  return false;
+}
+
+template class Envelope<double>;
+template class Envelope<DoubleDouble>;
+
+}  // namespace krepl::terrain

@@ -1,0 +1,126 @@
+#include <algorithm>
+
+#include "terrain/box_frame.hpp"
+
+// Where bodies end in walls, and what that hides.
+namespace krepl::terrain {
+
+using FeatureKind = Terrain::FeatureKind;
+
+/// The one wall at which the patch's body ends within the box, if there is one and nothing else of the body's outline
+/// meets the box. Inside of it the body is at least as high as its rim: a ball as its centre, a cigar as its axis
+/// beside the place. A bit beyond an edge's ends its line is as good an outline as the circle there.
+template <class Real>
+std::optional<typename Envelope<Real>::Wall> Envelope<Real>::wall_through(Index i, const BoxFrame& box) const {
+  const Patch& f = patches_[i];
+  if (f.kind == FeatureKind::vertex) return Wall{{f.at, 0, 0, 0, BoundType::disc, true, none, true, BoundSource::rim, none}, 0};
+  if (f.kind == FeatureKind::face) return std::nullopt;
+  const Real dx = box.mid.x - f.at.x, dy = box.mid.y - f.at.y, along = dx * f.gx + dy * f.gy;
+  const Real spread = absolute(f.gx) * box.hx + absolute(f.gy) * box.hy + noise_;
+  const Real beyond = std::max({Real(0), spread - along, along + spread - f.length});
+  if (beyond * beyond > patches_.radius() * tolerance_ / 4) return std::nullopt;
+  const Real aside = dy * f.gx - dx * f.gy;
+  const bool left = aside > 0;
+  // The wall on the other side.
+  if (absolute(f.gx) * box.hy + absolute(f.gy) * box.hx - absolute(aside) >= patches_.radius()) return std::nullopt;
+  const Real limit = left ? patches_.radius() : -patches_.radius();
+  return Wall{{f.at, -f.gy, f.gx, limit, BoundType::line, left, none, true, BoundSource::rim, none}, absolute(f.m) * beyond};
+}
+
+/// True if the patch lies on the inner side of another one's wall within the box, as far as matters.
+template <class Real>
+bool Envelope<Real>::ends_before(Index i, const Bound& wall, const Box& box) const {
+  const Patch& f = patches_[i];
+  const Real tolerance = tolerance_ / 4;
+  if (wall.type == BoundType::line) {
+    for (const Bound& b : patches_.bounds(i)) {  // its own straight side runs along the wall
+      if (b.type != BoundType::line) continue;
+      const Real s = -b.sign(), w = -wall.sign();
+      const Point m = box.middle();
+      const Real excess = s * b.value(m, 0) - w * wall.value(m, 0);
+      const Real spread = absolute(s * b.nx - w * wall.nx) * box.half_x() + absolute(s * b.ny - w * wall.ny) * box.half_y();
+      if (excess + spread <= noise_) return true;
+    }
+  }
+  if (wall.type == BoundType::disc) {
+    const auto is_centre = [&](Point p) { return norm(p.x - wall.at.x, p.y - wall.at.y) <= tolerance; };
+    if (f.kind != FeatureKind::edge) return f.kind == FeatureKind::vertex && is_centre(f.at);
+    // Beyond its end an edge's body is a ball.
+    const Point mid = box.middle();
+    const Real along = (mid.x - f.at.x) * f.gx + (mid.y - f.at.y) * f.gy;
+    const Real spread =
+        absolute(f.gx) * box.half_x() + absolute(f.gy) * box.half_y() - square_root(patches_.radius() * tolerance);
+    if (along + spread <= 0) return is_centre(f.at);
+    return along - spread >= f.length && is_centre(f.end());
+  }
+  const auto beyond = [&](Point p) {  // of the edge's line, towards the wall
+    const Real aside = (p.x - wall.at.x) * wall.nx + (p.y - wall.at.y) * wall.ny;
+    return wall.negative ? aside : -aside;
+  };
+  if (f.kind == FeatureKind::vertex) return beyond(f.at) <= tolerance;
+  if (f.kind == FeatureKind::edge) {
+    return beyond(f.at) <= tolerance && beyond(f.end()) <= tolerance;
+  }
+  for (const Point c : patches_.corners(i)) {
+    if (beyond(c) > patches_.radius() + tolerance) return false;
+  }
+  return true;
+}
+
+/// How far a place is outside of a wall, beside it; at most a convex function of the place.
+template <class Real>
+Real Envelope<Real>::outside(const Bound& wall, Point p) const {
+  const Real value = wall.sign() * wall.value(p, patches_.square_radius());
+  return wall.type == BoundType::disc ? value / (2 * patches_.radius()) : value;
+}
+
+/// True if the outlines of two bodies, moved inwards by `inset` in all, leave no gap between them in the box that is
+/// wide enough to show.
+template <class Real>
+bool Envelope<Real>::back_to_back(const Bound& a, const Bound& b, const Box& box, Real inset) const {
+  for (const Point p : box.corners()) {
+    if (!(outside(a, p) + outside(b, p) + inset <= 2 * tolerance_))
+      return false;  // twice: lines round what they leave out
+  }
+  return true;
+}
+
+/// How far inside its wall a body is as high as a plane all over the box, given by its heights at the corners; infinite
+/// if that is far.
+template <class Real>
+Real Envelope<Real>::inset_of(Index body, const Wall& wall, const Box& box, const Real (&plane)[4]) const {
+  const std::array<Point, 4> corner = box.corners();
+  Real excess = 0;  // of the plane over the rim
+  for (int k = 0; k < 4; ++k)
+    excess = std::max(excess, plane[k] - (rim_height(body, corner[k]) - wall.lowered + noise_));
+  const Patch& f = patches_[body];
+  const Real up = excess / (f.kind == FeatureKind::edge ? f.q : Real(1)), square = up * up / patches_.square_radius();
+  return square < 0.5 ? patches_.radius() * square / 2 * (1 + square) : Real(std::numeric_limits<double>::infinity());
+}
+
+/// True if what shows of a patch beyond the wall of a body that hides the rest is below another body: it lies in a
+/// strip along the patch's own wall, above which heights rise like square roots.
+template <class Real>
+bool Envelope<Real>::hidden_beyond(Index i, const Wall& wall, Real inset, std::span<const Index> others,
+                                   const BoxFrame& frame) const {
+  const Patch& f = patches_[i];
+  const std::optional<Wall> own = wall_through(i, frame);
+  if (!own) return false;
+  const std::array<Point, 4> corner = frame.box.corners();
+  Real width = 0;
+  for (const Point p : corner) width = std::max(width, outside(wall.outline, p) + inset - outside(own->outline, p));
+  if (own->outline.type == BoundType::disc)
+    width += 4 * (frame.hx * frame.hx + frame.hy * frame.hy) / (2 * patches_.radius());
+  const Real up = square_root(2 * patches_.radius() * width);
+  return std::any_of(others.begin(), others.end(), [&](Index other) {
+    return std::all_of(corner.begin(), corner.end(), [&](Point p) {
+      const Real strip = f.kind == FeatureKind::edge ? axis_height(i, p) + f.q * up : f.z + up;
+      return patches_.body_height(other, p) - noise_ > strip;
+    });
+  });
+}
+
+template class Envelope<double>;
+template class Envelope<DoubleDouble>;
+
+}  // namespace krepl::terrain
