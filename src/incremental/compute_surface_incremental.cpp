@@ -1,34 +1,14 @@
-#include <cmath>
-#include <cstdio>
-
 #include "incremental/assembly.hpp"
 #include "incremental/monotone_order.hpp"
 #include "krepl/incremental.hpp"
+#include "model/radius_check.hpp"
 
 namespace krepl {
 
 namespace {
 
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", x);
-  return text;
-}
-
 std::optional<Error> refusal(const Terrain& terrain, const IncrementalOptions& options) {
-  const double radius = options.radius;
-  if (!std::isfinite(radius) || radius <= 0) {
-    return Error{ErrorCode::usage, "the radius is " + number(radius), "", "give a positive, finite number"};
-  }
-  const double scale = std::max(radius, terrain.extent());
-  if (scale > 1e100 || radius < 1e-100) {
-    return Error{ErrorCode::input, "coordinates or radius are beyond 1e100, or the radius is below 1e-100", "",
-                 "scale the input"};
-  }
-  if (radius < 0x1p-20 * scale) {
-    return Error{ErrorCode::usage, "the radius " + number(radius) + " is too fine for an extent of " + number(scale),
-                 "", "use at least " + number(0x1p-20 * scale) + ", or the engine auto"};
-  }
+  if (auto error = refuse_radius(terrain, options.radius, 0x1p-20, ", or the engine auto")) return error;
   if (terrain.triangle_count() > options.most_triangles) {
     return Error{ErrorCode::usage,
                  "the incremental engine takes at most " + std::to_string(options.most_triangles) +
@@ -41,7 +21,7 @@ std::optional<Error> refusal(const Terrain& terrain, const IncrementalOptions& o
 Error uncertified(const Terrain& terrain, const incremental::Fault& fault, std::size_t step) {
   const Point3 o = terrain.origin();
   return Error{ErrorCode::computation, "the surface could not be certified: " + fault.what,
-               "near x " + number(double(fault.at.x) + o.x) + ", y " + number(double(fault.at.y) + o.y) +
+               "near x " + shown(double(fault.at.x) + o.x) + ", y " + shown(double(fault.at.y) + o.y) +
                    ", when triangle " + std::to_string(step + 1) + " of the order was added",
                "use the engine auto"};
 }

@@ -1,25 +1,19 @@
 #include <algorithm>
-#include <cmath>
 #include <condition_variable>
 #include <map>
 #include <mutex>
 
 #include "kernel/parallel.hpp"
+#include "model/radius_check.hpp"
 #include "terrain/assembly.hpp"
 
 namespace krepl {
 namespace {
 
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", x);
-  return text;
-}
-
 Error uncertified(const Terrain& terrain, Point at) {
   const Point3 o = terrain.origin();
   return Error{ErrorCode::computation, "the surface could not be certified",
-               "near x " + number(at.x + o.x) + ", y " + number(at.y + o.y), "please report this input"};
+               "near x " + shown(at.x + o.x) + ", y " + shown(at.y + o.y), "please report this input"};
 }
 
 /// Puts tiles together in their order, whatever order they come in, while others are being computed.
@@ -77,18 +71,8 @@ class TileQueue {
 
 Result<Surface> compute_surface(std::shared_ptr<const Terrain> terrain, const SurfaceOptions& options, const Context& context) {
   const double radius = options.radius;
-  if (!std::isfinite(radius) || radius <= 0) {
-    return Error{ErrorCode::usage, "the radius is " + number(radius), "", "give a positive, finite number"};
-  }
+  if (auto error = refuse_radius(*terrain, radius, 0x1p-30)) return *error;
   const double scale = std::max(radius, terrain->extent());
-  if (scale > 1e100 || radius < 1e-100) {
-    return Error{ErrorCode::input, "coordinates or radius are beyond 1e100, or the radius is below 1e-100", "",
-                 "scale the input"};
-  }
-  if (radius < 0x1p-30 * scale) {
-    return Error{ErrorCode::usage, "the radius " + number(radius) + " is too fine for an extent of " + number(scale), "",
-                 "use at least " + number(0x1p-30 * scale)};
-  }
   const Error cancelled{ErrorCode::cancelled, "cancelled", "", ""};
   const terrain::Tiling tiling = terrain::tiling_for(*terrain, radius);
   TileQueue queue(terrain, radius, tiling);
