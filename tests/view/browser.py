@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import tempfile
 import time
+import unittest
 
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--disable-extensions", "--mute-audio", "--remote-debugging-pipe",
@@ -149,3 +150,27 @@ class Browser:
     def screenshot(self, path):
         with open(path, "wb") as out:
             out.write(base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"]))
+
+
+class BrowserCase(unittest.TestCase):
+    """Tests of pages in one browser, `cls.browser` of the size `cls.size`: no message in its console, and no request but for files."""
+
+    size = (1200, 800)
+
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser(*cls.size)
+        cls.browser.__enter__()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.__exit__()
+
+    def setUp(self):
+        self.browser.problems.clear()
+        self.browser.requests.clear()
+
+    def tearDown(self):
+        self.assertEqual(self.browser.problems, [], "console")
+        outside = [r for r in self.browser.requests if not r.startswith(("file:", "about:"))]
+        self.assertEqual(outside, [], "requests")

@@ -11,7 +11,7 @@ import sys
 import unittest
 
 sys.dont_write_bytecode = True  # no __pycache__ among the sources
-from browser import Browser, program
+from browser import BrowserCase, program
 
 KREPL, DIRECTORY = sys.argv[1:3]
 H = math.sqrt(0.5)
@@ -60,25 +60,7 @@ def colors(browser, points):
     }})()""")
 
 
-class PageTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.browser = Browser(1200, 800)
-        cls.browser.__enter__()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.__exit__()
-
-    def setUp(self):
-        self.browser.problems.clear()
-        self.browser.requests.clear()
-
-    def tearDown(self):
-        self.assertEqual(self.browser.problems, [], "console")
-        outside = [r for r in self.browser.requests if not r.startswith(("file:", "about:"))]
-        self.assertEqual(outside, [], "requests")
-
+class PageTest(BrowserCase):
     def shot(self, name):
         self.browser.screenshot(os.path.join(DIRECTORY, name + ".png"))
 

@@ -13,7 +13,7 @@ import unittest
 import zlib
 
 sys.dont_write_bytecode = True  # no __pycache__ among the sources
-from browser import Browser, program
+from browser import BrowserCase, program
 from surface_pages import Pages
 
 KREPL, DIRECTORY = sys.argv[1:3]
@@ -44,29 +44,17 @@ def hue(color):
     return "red" if r > 1.35 * g else "sand"
 
 
-class SurfacePageTest(unittest.TestCase):
+class SurfacePageTest(BrowserCase):
+    size = (1000, 700)
+
     @classmethod
     def setUpClass(cls):
-        cls.browser = Browser(1000, 700)
-        cls.browser.__enter__()
+        super().setUpClass()
         cls.hills = PAGES.hills("hills", 40, first=AT)
         cls.page, cls.said = PAGES.page("hills", cls.hills, 1.5, "--title", "Hills & <valleys>")
         roof = [(0, 0, 0), (10, 0, 0), (10, 5, 4), (0, 5, 4), (0, 10, 0), (10, 10, 0)]
         cls.roof = PAGES.mesh("roof", roof, [(0, 1, 2), (0, 2, 3), (3, 2, 5), (3, 5, 4)])
         cls.roof_page, _ = PAGES.page("roof", cls.roof, 2)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.__exit__()
-
-    def setUp(self):
-        self.browser.problems.clear()
-        self.browser.requests.clear()
-
-    def tearDown(self):
-        self.assertEqual(self.browser.problems, [], "console")
-        outside = [r for r in self.browser.requests if not r.startswith(("file:", "about:"))]
-        self.assertEqual(outside, [], "requests")
 
     def shot(self, name):
         path = os.path.join(DIRECTORY, name + ".png")
