@@ -7,6 +7,18 @@ namespace krepl {
 using zone::Index;
 using zone::none;
 
+Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, const zone::Instance& instance, zone::Rings rings,
+                                  double resolution, ZoneCounters counters, const Context& context) {
+  const Error cancelled{ErrorCode::cancelled, "cancelled", "", ""};
+  if (context.cancelled()) return cancelled;
+  rings = zone::contract(instance, std::move(rings), resolution, context, counters);
+  if (network->has_polygons()) rings = zone::drop_rings_inside_polygons(*network, std::move(rings));
+  if (context.cancelled()) return cancelled;
+  const auto nesting = zone::nest(instance, rings, context);
+  if (!nesting) return nesting.error();
+  return assemble(std::move(network), instance.nominal_radius(), std::move(rings), *nesting, counters, context);
+}
+
 Zone ZoneAssembly::assemble(std::shared_ptr<const Network> network, double radius, zone::Rings rings,
                             const zone::Nesting& nesting, const ZoneCounters& counters, const Context& context) {
   Zone zone;

@@ -7,13 +7,17 @@
 
 namespace krepl {
 
-/// Builds a Zone, with its subdivision, from closed and nested rings.
+/// Builds a Zone, with its subdivision.
 class ZoneAssembly {
  public:
-  static Zone assemble(std::shared_ptr<const Network> network, double radius, zone::Rings rings,
-                       const zone::Nesting& nesting, const ZoneCounters& counters, const Context& context);
+  /// From closed rings, by whichever engine: contracts what no double lies between, drops what lies inside polygons, nests.
+  static Result<Zone> finish(std::shared_ptr<const Network> network, const zone::Instance& instance, zone::Rings rings,
+                             double resolution, ZoneCounters counters, const Context& context);
 
  private:
+  /// From closed and nested rings.
+  static Zone assemble(std::shared_ptr<const Network> network, double radius, zone::Rings rings,
+                       const zone::Nesting& nesting, const ZoneCounters& counters, const Context& context);
   static void add_polygons(Zone& zone, const zone::Nesting& nesting);
   static void add_subdivision(Zone& zone, const zone::Nesting& nesting, const Context& context);
 };

@@ -29,10 +29,19 @@ Instance::Instance(const Network& network, double nominal_radius, double radius,
       radius_(radius),
       nominal_condition_(4 * (radius - nominal_radius) / resolution),
       extent_(network.extent()),
-      jitter_(std::max(0x1p-72 * network.extent(), 0x1p-88 * radius)),  // well above what 113 bits resolve
-      sectors_(network.vertices().size(), Sector{none, none}) {
-  find_sectors(context);
+      jitter_(std::max(0x1p-72 * network.extent(), 0x1p-88 * radius)) {  // well above what 113 bits resolve
+  find_shape(context);
 }
+
+Instance::Instance(const Instance& other, double nominal_radius, double radius, double resolution)
+    : vertices_(other.vertices_),
+      segments_(other.segments_),
+      nominal_radius_(nominal_radius),
+      radius_(radius),
+      nominal_condition_(4 * (radius - nominal_radius) / resolution),
+      extent_(other.extent_),
+      jitter_(other.jitter_),
+      shape_(other.shape_) {}
 
 Vector<quad> Instance::moved(Index vertex) const {
   const Point p = vertices_[vertex];
@@ -69,8 +78,10 @@ Instance::Sector Instance::find_sector(Index v, std::span<const Index> outgoing)
   return {last ^ 1u, first};
 }
 
-void Instance::find_sectors(const Context& context) {
+void Instance::find_shape(const Context& context) {
   const std::size_t n = vertices_.size();
+  auto shape = std::make_shared<Shape>();
+  shape->sectors.assign(n, Sector{none, none});
   std::vector<Index> begin(n + 1, 0), outgoing(2 * segments_.size());
   for (const auto s : segments_) ++begin[s.a], ++begin[s.b];
   Index total = 0;
@@ -84,12 +95,13 @@ void Instance::find_sectors(const Context& context) {
   kernel::parallel_blocks(quiet, n, 1 << 14, [&](std::size_t from, std::size_t to) {
     for (std::size_t v = from; v < to; ++v) {
       const std::span<const Index> around(outgoing.data() + begin[v], begin[v + 1] - begin[v]);
-      sectors_[v] = around.empty() ? Sector{circle(Index(v)), circle(Index(v))} : find_sector(Index(v), around);
+      shape->sectors[v] = around.empty() ? Sector{circle(Index(v)), circle(Index(v))} : find_sector(Index(v), around);
     }
   });
   for (std::size_t v = 0; v < n; ++v) {
-    if (begin[v] == begin[v + 1]) isolated_.push_back(Index(v));
+    if (begin[v] == begin[v + 1]) shape->isolated.push_back(Index(v));
   }
+  shape_ = std::move(shape);
 }
 
 }  // namespace krepl::zone

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -43,6 +44,8 @@ class Instance {
 
   /// `resolution`: pieces shorter than this will be contracted, so vertices may be displaced by a quarter of it.
   Instance(const Network& network, double nominal_radius, double radius, double resolution, const Context& context);
+  /// The same moved vertices at another radius. O(1).
+  Instance(const Instance& other, double nominal_radius, double radius, double resolution);
 
   /// The enlarged radius, which decides everything.
   double radius() const { return radius_; }
@@ -58,10 +61,10 @@ class Instance {
 
   Index side_count() const { return Index(2 * segments_.size()); }
   Index element_count() const { return side_count() + Index(vertices_.size()); }
-  Index site_count() const { return Index(segments_.size() + isolated_.size()); }
+  Index site_count() const { return Index(segments_.size() + shape_->isolated.size()); }
   Network::Segment site(Index i) const {
     return i < segments_.size() ? segments_[i]
-                                : Network::Segment{isolated_[i - segments_.size()], isolated_[i - segments_.size()]};
+                                : Network::Segment{shape_->isolated[i - segments_.size()], shape_->isolated[i - segments_.size()]};
   }
 
   bool is_side(Index element) const { return element < side_count(); }
@@ -78,7 +81,7 @@ class Instance {
   struct Sector {
     Index before, after;
   };
-  Sector sector(Index vertex) const { return sectors_[vertex]; }
+  Sector sector(Index vertex) const { return shape_->sectors[vertex]; }
 
   /// True if the direction from `at` to `to` is counter-clockwise of that to `from`, by less than 180 degrees.
   bool turns_left(Index at, Index from, Index to) const;
@@ -102,7 +105,12 @@ class Instance {
   }
 
  private:
-  void find_sectors(const Context& context);
+  /// What does not depend on the radius.
+  struct Shape {
+    std::vector<Index> isolated;
+    std::vector<Sector> sectors;
+  };
+  void find_shape(const Context& context);
   Sector find_sector(Index vertex, std::span<const Index> outgoing) const;
 
   std::span<const Point> vertices_;
@@ -112,8 +120,7 @@ class Instance {
   double nominal_condition_;
   double extent_;
   double jitter_;
-  std::vector<Index> isolated_;
-  std::vector<Sector> sectors_;
+  std::shared_ptr<const Shape> shape_;
 };
 
 }  // namespace krepl::zone

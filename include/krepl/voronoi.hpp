@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "krepl/context.hpp"
+#include "krepl/error.hpp"
+#include "krepl/network.hpp"
+#include "krepl/point.hpp"
+#include "krepl/zone.hpp"
+
+namespace krepl {
+
+/// How a diagram came about. Printed by `krepl --verbose`.
+struct VoronoiCounters {
+  std::uint64_t faces = 0;                  ///< sides of segments, and vertices with a face of their own
+  std::uint64_t candidates = 0;             ///< sites looked at closely for them
+  std::uint64_t faces_in_quadruple = 0;     ///< computed again because neighbours disagreed in double precision
+  std::uint64_t vertices_in_quadruple = 0;  ///< evaluated again because the faces around them disagreed on the place
+  std::uint64_t rounds = 0;                 ///< of computing faces again until all neighbours agreed
+};
+
+/// The segment Voronoi diagram of a network: for every place of the plane, which site is nearest. Sites are the two sides of
+/// each open segment and the vertices. A vertex has a face of its own only within the gap above 180 degrees that its segments
+/// leave (thesis 3.4 with its erratum: faces of end points and reflex vertices are there); everywhere else around it a side
+/// is nearer. Lines may cross, overlap, branch and repeat: segments that cross share the crossing as a place of clearance 0.
+///
+/// The diagram answers for every radius: the zone's boundary within a face is the site's own boundary at distance R.
+class VoronoiDiagram {
+ public:
+  /// A site: side `side` of a segment (0: right of it as it runs from a to b, 1: left), or a vertex.
+  struct Site {
+    bool is_vertex = false;
+    std::uint32_t index = 0;  ///< of the segment or vertex in network()
+    std::uint32_t side = 0;   ///< segments only
+    friend bool operator==(const Site&, const Site&) = default;
+  };
+
+  /// The stretch of the diagram between two faces: a straight piece (two vertices, two sides, or a side and its own end) or a
+  /// piece of a parabola (a side and another vertex). Coordinates are absolute.
+  struct Edge {
+    Site left, right;    ///< the sites whose faces lie on the left and on the right, from start to end
+    Point start, end;    ///< an unbounded edge's far end is a unit vector, the direction in which it runs away
+    double start_clearance, end_clearance;  ///< distance from the sites; infinite at an unbounded end
+    double minimum;      ///< least distance from the sites along the edge
+    bool parabolic;
+    /// True for a perpendicular between a side and its own end, which touches the network: part of the Voronoi diagram, not of
+    /// the medial axis.
+    bool touches_site;
+  };
+
+  /// Computes the diagram: expected O(n log n), about 500 bytes per segment; polygons count as their rings. Decisions are those
+  /// of one instance whose vertices are within 2^-72 S (docs/voronoi.md). Errors: cancelled; a diagram that does not
+  /// certify.
+  static Result<VoronoiDiagram> build(std::shared_ptr<const Network> network, const Context& context = {});
+
+  /// The zone of the network at one radius: the same rings as compute_zone gives. O(n), with a small constant where the radius is
+  /// far from the clearances; may be called from several threads. Errors as compute_zone.
+  Result<Zone> zone(const ZoneOptions& options, const Context& context = {}) const;
+
+  const Network& network() const;
+  const VoronoiCounters& counters() const;
+  std::size_t face_count() const;
+  std::size_t edge_count() const;
+  std::size_t vertex_count() const;
+
+  /// All edges, each once, in a fixed order.
+  std::vector<Edge> edges() const;
+  /// Points along an edge, ends included: chords of a parabola deviate from it by max_error at most. Unbounded edges are followed
+  /// up to max_clearance from their sites; an edge beyond it gives fewer than two points.
+  std::vector<Point> points(const Edge& edge, double max_error, double max_clearance) const;
+
+  /// Links have twins between the same vertices, borders are closed, Euler's formula holds, clearances are those of both
+  /// sites. Returns what is wrong and where, or nothing.
+  std::optional<std::string> validate() const;
+
+ private:
+  struct Parts;
+  explicit VoronoiDiagram(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+  std::shared_ptr<const Parts> parts_;
+};
+
+}  // namespace krepl

@@ -1,0 +1,176 @@
+#include "voronoi/faces.hpp"
+
+#include <cmath>
+
+namespace krepl::voronoi {
+namespace {
+
+constexpr Index neighbours = 2;  // along the Hilbert curve, on each side: where the search starts
+
+Point sum(Point base, Vector<double> offset) { return {base.x + offset.x, base.y + offset.y}; }
+
+template <class Real>
+Vector<double> rounded(Vector<Real> v) {
+  return {double(v.x), double(v.y)};
+}
+
+/// The least distance along an arc of a side's border: a parabola has its lowest point under the other site.
+template <class Real>
+Real lowest(const SideCurve<Real>& curve, Real begin, Real end) {
+  if (curve.label == none) return infinite<Real>();
+  if (!curve.is_line && begin < curve.at.x && curve.at.x < end) return curve.at.y / 2;
+  return std::min(curve.height(begin), curve.height(end));
+}
+template <class Real>
+Real lowest(const VertexCurve<Real>& curve, Real begin, Real end) {
+  if (curve.label == none) return infinite<Real>();
+  const Real along = curve.w.x, across = curve.w.y;
+  if (along > 0 && begin * along < across && across < end * along) {
+    return curve.is_line ? curve.distance / 2 : zone::length(curve.at) / 2;
+  }
+  return std::min(curve.height(begin), curve.height(end));
+}
+
+/// Borders that meet at the same place are as high as the lower of the two says.
+template <class Arcs>
+double joint(const Arcs& arcs, std::size_t i) {
+  const auto& a = arcs[i];
+  if (a.curve.label == none || (i + 1 < arcs.size() && arcs[i + 1].curve.label == none)) return infinite<double>();
+  return double(a.curve.height(a.end));
+}
+
+}  // namespace
+
+template <class Cell>
+void FaceBuilder::gather(Cell& cell, Index around, Vector<double> base, Vector<double> from) {
+  const auto take = [&](Index site) {
+    candidates_.push_back(site);
+    ++counters.candidates;
+    if (cell.add_site(site)) reach_.update(cell);
+  };
+  candidates_.clear();
+  reach_.update(cell);
+  const Index sites = sites_.instance().site_count();
+  const Index first = around > neighbours ? around - neighbours : 0, last = std::min(around + neighbours + 1, sites);
+  for (Index site = first; site < last; ++site) take(site);
+  boxes_.search(
+      from, heap_, [&](const SiteBoxes::Box& box) { return reach_.meets(cell, box, base); },
+      [&](Index site) {
+        if (site < first || site >= last) take(site);
+      });
+}
+
+bool FaceBuilder::find_candidates(Index element) {
+  const Instance& in = sites_.instance();
+  if (in.is_side(element)) {
+    side_.start(element);
+    const auto e = in.ends(element);
+    const Point p = in.vertices()[e.from], q = in.vertices()[e.to];
+    gather(side_, element >> 1, {p.x, p.y}, {(p.x + q.x) / 2, (p.y + q.y) / 2});
+    return true;
+  }
+  const Index v = in.vertex_of(element);
+  const bool sound = vertex_.start(v);
+  const Point p = in.vertices()[v];
+  gather(vertex_, sites_.owner(v), {p.x, p.y}, {p.x, p.y});
+  return sound;
+}
+
+bool FaceBuilder::build(Index element, std::vector<Link>& out) {
+  const bool sound = find_candidates(element);
+  return sites_.is_side(element) ? write(side_, out) : write(vertex_, out) && sound;
+}
+
+void FaceBuilder::build_precisely(Index element, std::vector<Link>& out) {
+  find_candidates(element);
+  const Instance& in = sites_.instance();
+  const auto near = [&](Index site) {
+    const auto s = in.site(site);
+    const Point a = in.vertices()[s.a], b = in.vertices()[s.b];
+    const SiteBoxes::Box box{{(a.x + b.x) / 2, (a.y + b.y) / 2},
+                             {std::abs(a.x - b.x) / 2 * (1 + 0x1p-40) + 0x1p-45 * in.extent(),
+                              std::abs(a.y - b.y) / 2 * (1 + 0x1p-40) + 0x1p-45 * in.extent()}};
+    const Index from = in.is_side(element) ? in.ends(element).from : in.vertex_of(element);
+    const Vector<double> base{in.vertices()[from].x, in.vertices()[from].y};
+    return in.is_side(element) ? reach_.meets(side_, box, base) : reach_.meets(vertex_, box, base);
+  };
+  if (in.is_side(element)) {
+    precise_side_.start(element);
+    for (const Index site : candidates_) {
+      if (near(site)) precise_side_.add_site(site);
+    }
+    write(precise_side_, out);
+  } else {
+    precise_vertex_.start(in.vertex_of(element));
+    for (const Index site : candidates_) {
+      if (near(site)) precise_vertex_.add_site(site);
+    }
+    write(precise_vertex_, out);
+  }
+}
+
+template <class Real>
+bool FaceBuilder::write(const SideCell<Real>& cell, std::vector<Link>& out) const {
+  const Instance& in = sites_.instance();
+  const auto ends = cell.ends();
+  const Point base = in.vertices()[ends.from];
+  const auto& arcs = cell.arcs();
+  const auto place = [&](Real x, double height) {
+    if (height == infinite<double>()) return sum({0, 0}, rounded(cell.plane({Real(0), Real(1)})));
+    return sum(base, rounded(cell.plane({x, Real(height)})));
+  };
+  const bool starts = in.sector(ends.from).after == cell.element(), stops = in.sector(ends.to).before == cell.element();
+  const double left = double(arcs.front().curve.height(0));
+  if (starts) out.push_back({in.circle(ends.from), left, 0, place(0, left)});
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const auto& a = arcs[i];
+    const bool last = i + 1 == arcs.size();
+    const double height = joint(arcs, i);
+    out.push_back({a.curve.label, height, double(lowest(a.curve, a.begin, a.end)), place(a.end, height)});
+    if (last && !stops) out.back().clearance = 0, out.back().end = in.vertices()[ends.to];
+  }
+  if (stops) out.push_back({in.circle(ends.to), 0, 0, in.vertices()[ends.to]});
+  const double right = double(arcs.back().curve.height(cell.length()));
+  return starts == (left > 0) && stops == (right > 0);
+}
+
+template <class Real>
+bool FaceBuilder::write(const VertexCell<Real>& cell, std::vector<Link>& out) const {
+  const Instance& in = sites_.instance();
+  const Point base = in.vertices()[cell.vertex()];
+  const auto place = [&](Vector<double> u, double height) {
+    return height == infinite<double>() ? sum({0, 0}, u) : sum(base, height * u);
+  };
+  if (!cell.is_isolated()) {
+    const auto& chart = cell.chart(0);
+    const auto& arc = chart.envelope.arcs().front();
+    const double height = double(arc.curve.height(arc.begin));
+    out.push_back({cell.sector().before, height, 0, place(rounded(chart.direction(arc.begin)), height)});
+  }
+  const std::size_t first = out.size();
+  for (int k = 0; k < cell.chart_count(); ++k) {
+    const auto& chart = cell.chart(k);
+    const auto& arcs = chart.envelope.arcs();
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+      const double height = joint(arcs, i);
+      const Link link{arcs[i].curve.label, height, double(lowest(arcs[i].curve, arcs[i].begin, arcs[i].end)),
+                      place(rounded(chart.direction(arcs[i].end)), height)};
+      if (i == 0 && k > 0 && out.back().label == link.label) {  // goes on from the chart before
+        const double minimum = std::min(out.back().minimum, link.minimum);
+        out.back() = link;
+        out.back().minimum = minimum;
+      } else {
+        out.push_back(link);
+      }
+    }
+  }
+  if (!cell.is_isolated()) {
+    out.push_back({cell.sector().after, 0, 0, base});
+  } else if (out.size() - first > 1 && out.back().label == out[first].label) {  // a closed border has no start
+    out[first].minimum = std::min(out[first].minimum, out.back().minimum);
+    out.pop_back();
+  }
+  return true;
+}
+
+}  // namespace krepl::voronoi

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "voronoi/reach.hpp"
+
+namespace krepl::voronoi {
+
+/// A stretch of a face's border: the neighbour (none: there is none, the face is unbounded), and where it ends.
+struct Link {
+  Index label = none;
+  double clearance = 0;  ///< distance of the end from the sites; infinite where the border runs away
+  double minimum = 0;    ///< the least distance along the link
+  Point end{};           ///< relative to the network's origin; a direction where the clearance is infinite
+};
+
+/// Counts for --verbose.
+struct FaceCounters {
+  std::uint64_t candidates = 0;  ///< sites looked at closely
+};
+
+/// Computes faces one at a time: the site's neighbours are searched in a tree, the face is the lower envelope of the bisectors.
+/// The links of a face stand in counter-clockwise order, from the perpendicular at the site's start to that at its end; an
+/// isolated vertex has a closed border.
+class FaceBuilder {
+ public:
+  FaceBuilder(const Sites& sites, const SiteBoxes& boxes)
+      : sites_(sites), boxes_(boxes), side_(sites), vertex_(sites), precise_side_(sites), precise_vertex_(sites) {}
+
+  /// Appends the face of an element in double precision. Returns false if it is certainly wrong: take build_precisely.
+  bool build(Index element, std::vector<Link>& out);
+  /// The same in quadruple precision of the moved vertices, among the sites that come near in double precision.
+  void build_precisely(Index element, std::vector<Link>& out);
+
+  FaceCounters counters;
+
+ private:
+  template <class Cell>
+  void gather(Cell& cell, Index around, Vector<double> base, Vector<double> from);
+  bool find_candidates(Index element);
+  template <class Real>
+  bool write(const SideCell<Real>& cell, std::vector<Link>& out) const;
+  template <class Real>
+  bool write(const VertexCell<Real>& cell, std::vector<Link>& out) const;
+
+  const Sites& sites_;
+  const SiteBoxes& boxes_;
+  SideCell<double> side_;
+  VertexCell<double> vertex_;
+  SideCell<quad> precise_side_;
+  VertexCell<quad> precise_vertex_;
+  Reach reach_;
+  SiteBoxes::Heap heap_;
+  std::vector<Index> candidates_, near_;
+};
+
+}  // namespace krepl::voronoi

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "voronoi/diagram.hpp"
+
+namespace krepl::voronoi {
+
+/// The borders of all faces while they are brought to agree: a face that is done again moves to the end.
+class Borders {
+ public:
+  explicit Borders(const Instance& instance) : in_(instance) {}
+
+  std::vector<Link> links;
+  std::vector<Index> first, count;  // per face
+
+  std::span<const Link> border(Index face) const { return {links.data() + first[face], count[face]}; }
+  /// The link of the other face that is the same stretch: between the same neighbours, in the opposite order. None if there is
+  /// none, or if two would do.
+  Index twin(Index face, Index link) const;
+  /// What stands before and after a link of a face; Diagram::base at the site itself and where segments cross.
+  Index before(Index face, Index link) const;
+  Index after(Index face, Index link) const;
+
+ private:
+  bool is_closed(Index face) const { return !in_.is_side(face) && in_.sector(in_.vertex_of(face)).before == face; }
+  /// The two sides of one segment follow each other where it crosses the face's own.
+  Index neighbour(Index label, Index next) const {
+    return next == (label ^ 1u) && label != none && next != none && in_.is_side(label) ? Diagram::base : next;
+  }
+
+  const Instance& in_;
+};
+
+/// Gives every end of a link its vertex; links that end in the same vertex share it. Where the faces around a vertex do not agree
+/// on its place to a few units in the last place, it is evaluated in quadruple precision.
+void place_vertices(const Sites& sites, const Borders& borders, const Context& context, Diagram& diagram);
+
+}  // namespace krepl::voronoi

@@ -1,0 +1,81 @@
+#include "voronoi/reach.hpp"
+
+#include <cmath>
+
+namespace krepl::voronoi {
+
+void Reach::update(const SideCell<double>& cell) {
+  stretches_.clear();
+  double highest = 0;
+  for (const auto& arc : cell.arcs()) {
+    const double height = std::max(arc.curve.height(arc.begin), arc.curve.height(arc.end)) * wider;
+    stretches_.push_back({arc.begin, arc.end, height, {}, {}});
+    highest = std::max(highest, height);
+  }
+  whole_ = {0, cell.length(), highest, {}, {}};
+}
+
+void Reach::update(const VertexCell<double>& cell) {
+  stretches_.clear();
+  double highest = 0;
+  for (int i = 0; i < cell.chart_count(); ++i) {
+    const auto& chart = cell.chart(i);
+    for (const auto& arc : chart.envelope.arcs()) {
+      const double height = std::max(arc.curve.height(arc.begin), arc.curve.height(arc.end)) * wider;
+      stretches_.push_back({arc.begin, arc.end, height, chart.direction(arc.begin), chart.direction(arc.end)});
+      highest = std::max(highest, height);
+    }
+  }
+  whole_ = {0, 0, highest, stretches_.front().first, stretches_.back().last};
+}
+
+/// Of all points at height y and distance dx from the stretch, the lowest bisector is (dx^2 + y^2) / 2y high; over the box the
+/// least is at y = dx.
+bool Reach::side_meets(const Stretch& s, Vector<double> low, Vector<double> high) {
+  const double dx = std::max(std::max(s.begin - high.x, low.x - s.end), 0.0);
+  const double y = std::min(std::max(low.y, dx), high.y);
+  return y <= 0 || dx * dx + y * y <= 2 * y * s.height;
+}
+
+bool Reach::meets(const SideCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const {
+  const Vector<double> c = cell.rotate(box.centre - base), u = cell.plane({1, 0});
+  const Vector<double> half{std::abs(u.x) * box.half.x + std::abs(u.y) * box.half.y,
+                            std::abs(u.y) * box.half.x + std::abs(u.x) * box.half.y};
+  const Vector<double> low{c.x - half.x, std::max(c.y - half.y, 0.0)}, high = c + half;
+  if (!(high.y > 0) || !side_meets(whole_, low, high)) return false;
+  if (stretches_.size() == 1) return true;
+  for (const Stretch& s : stretches_) {
+    if (side_meets(s, low, high)) return true;
+  }
+  return false;
+}
+
+/// All disks touch the vertex and none is larger than the height: they lie in the two at the ends and in the sector of twice
+/// that radius.
+bool Reach::vertex_meets(const Stretch& s, Vector<double> c, Vector<double> h) {
+  const auto highest = [&](Vector<double> d) { return dot(d, c) + std::abs(d.x) * h.x + std::abs(d.y) * h.y; };
+  if (s.height == infinite<double>()) {
+    if (highest(s.first) >= 0 || highest(s.last) >= 0) return true;
+  } else {
+    for (const Vector<double> u : {s.first, s.last}) {
+      const double dx = std::max(std::abs(c.x - s.height * u.x) - h.x, 0.0);
+      const double dy = std::max(std::abs(c.y - s.height * u.y) - h.y, 0.0);
+      if (dx * dx + dy * dy <= s.height * s.height * wider) return true;
+    }
+    const double dx = std::max(std::abs(c.x) - h.x, 0.0), dy = std::max(std::abs(c.y) - h.y, 0.0);
+    if (dx * dx + dy * dy > 4 * s.height * s.height) return false;
+  }
+  return highest({-s.first.y, s.first.x}) >= 0 && highest({s.last.y, -s.last.x}) >= 0;
+}
+
+bool Reach::meets(const VertexCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const {
+  const Vector<double> c = box.centre - base;
+  if (!cell.is_isolated() && !vertex_meets(whole_, c, box.half)) return false;
+  if (stretches_.size() == 1) return true;
+  for (const Stretch& s : stretches_) {
+    if (vertex_meets(s, c, box.half)) return true;
+  }
+  return false;
+}
+
+}  // namespace krepl::voronoi

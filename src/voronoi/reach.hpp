@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "voronoi/side_cell.hpp"
+#include "voronoi/site_boxes.hpp"
+#include "voronoi/vertex_cell.hpp"
+
+namespace krepl::voronoi {
+
+/// Which boxes may hold a site that cuts a face as found so far: those that meet one of the empty disks about the face's
+/// border. Told a little too often (by 1e-9 of the disk), so that ties are seen.
+class Reach {
+ public:
+  void update(const SideCell<double>& cell);
+  void update(const VertexCell<double>& cell);
+  bool meets(const SideCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const;
+  bool meets(const VertexCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const;
+
+ private:
+  static constexpr double wider = 1 + 1e-9;
+
+  /// The border between two parameters, its largest height in between, and that of all.
+  struct Stretch {
+    double begin, end, height;
+    Vector<double> first, last;  // vertices: unit vectors of begin and end
+  };
+  static bool side_meets(const Stretch& s, Vector<double> low, Vector<double> high);
+  static bool vertex_meets(const Stretch& s, Vector<double> centre, Vector<double> half);
+
+  std::vector<Stretch> stretches_;
+  Stretch whole_{};
+};
+
+}  // namespace krepl::voronoi

@@ -1,0 +1,112 @@
+#include "voronoi/side_cell.hpp"
+
+namespace krepl::voronoi {
+
+template <class Real>
+void SideCell<Real>::start(Index element) {
+  element_ = element;
+  ends_ = sites_.instance().ends(element);
+  const Vector<Real> d = sites_.direction<Real>(element >> 1);
+  u_ = (element & 1u) ? Vector<Real>{-d.x, -d.y} : d;
+  length_ = zone::length(sites_.instance().template difference<Real>(ends_.to, ends_.from));
+  envelope_.start(0, length_);
+}
+
+template <class Real>
+bool SideCell<Real>::add_site(Index site) {
+  changed_ = false;
+  const auto s = sites_.instance().site(site);
+  if (s.a == s.b) {
+    add_vertex(s.a, locate(s.a));
+  } else if (!is_own(site)) {
+    add_segment(site);
+  }
+  return changed_;
+}
+
+/// A vertex is nearest only within the sector that its segments leave open. A centre that runs along the parabola with
+/// growing x sees its direction from the vertex turn from upwards over left, down and right to upwards again.
+template <class Real>
+void SideCell<Real>::add_vertex(Index vertex, Vector<Real> q) {
+  if (vertex == ends_.from || vertex == ends_.to || !(q.y > 0)) return;
+  const auto sector = sites_.instance().sector(vertex);
+  if (sector.before == none) return;
+  Curve curve;
+  curve.label = sites_.instance().circle(vertex);
+  curve.at = q;
+  if (!sites_.is_side(sector.before)) {
+    insert(curve, -infinite<Real>(), infinite<Real>());
+    return;
+  }
+  // The frame is a reflection: counter-clockwise in the plane is clockwise here.
+  const Vector<Real> first = rotate(sites_.normal<Real>(sector.after)), last = rotate(sites_.normal<Real>(sector.before));
+  const Real low = touching(q, first).x, high = touching(q, last).x;
+  if (first.x > 0 && last.x < 0) {  // the sector opens upwards
+    insert(curve, -infinite<Real>(), high);
+    insert(curve, low, infinite<Real>());
+  } else {
+    insert(curve, low, high);
+  }
+}
+
+template <class Real>
+void SideCell<Real>::add_line(Index label, Vector<Real> normal, Vector<Real> anchor, Vector<Real> place, Real low, Real high) {
+  Curve curve;
+  curve.label = label;
+  curve.is_line = true;
+  curve.at = place;
+  curve.normal = normal;
+  curve.anchor = anchor;
+  curve.gap = one_minus_y(normal);
+  if (!(curve.gap > 0)) return;  // parallel, seen from behind
+  curve.slope = normal.x / curve.gap;
+  insert(curve, low, high);
+}
+
+/// A segment that shares an end with the base: its bisector starts in that end, exactly.
+template <class Real>
+void SideCell<Real>::add_incident(Index segment, bool at_end, Vector<Real> other, Vector<Real> away, bool reversed) {
+  if (!(other.y > 0)) return;
+  const Vector<Real> corner{at_end ? length_ : Real(0), Real(0)};
+  const Vector<Real> n = at_end ? Vector<Real>{-away.y, away.x} : Vector<Real>{away.y, -away.x};
+  if (!(at_end ? n.x < 0 : n.x > 0)) return;
+  const Real limit = touching(other, n).x;
+  add_line(2 * segment + (at_end == reversed ? 1u : 0u), n, corner, corner, at_end ? limit : Real(0), at_end ? length_ : limit);
+}
+
+template <class Real>
+void SideCell<Real>::add_segment(Index segment) {
+  const auto s = sites_.instance().site(segment);
+  const Vector<Real> a = locate(s.a), b = locate(s.b);
+  if (!(a.y > 0) && !(b.y > 0)) return;
+  Vector<Real> d = rotate(sites_.direction<Real>(segment));
+  const bool a_own = s.a == ends_.from || s.a == ends_.to, b_own = s.b == ends_.from || s.b == ends_.to;
+  if (a_own) {
+    add_incident(segment, s.a == ends_.to, b, d, false);
+  } else if (b_own) {
+    add_incident(segment, s.b == ends_.to, a, {-d.x, -d.y}, true);
+  } else {
+    const bool reversed = b.y < a.y;  // the lower end first, so that d points upwards
+    const Vector<Real> p = reversed ? b : a, q = reversed ? a : b;
+    if (reversed) d = {-d.x, -d.y};
+    const Vector<Real> left{-d.y, d.x}, right{d.y, -d.x};
+    const Index left_label = 2 * segment + (reversed ? 1u : 0u), right_label = left_label ^ 1u;
+    const Real far_left = touching(q, left).x, far_right = touching(q, right).x;
+    if (p.y > 0) {
+      const Vector<Real> near_left = touching(p, left), near_right = touching(p, right);
+      add_line(left_label, left, p, near_left, far_left, near_left.x);
+      add_line(right_label, right, p, near_right, near_right.x, far_right);
+    } else {  // it crosses the base's line
+      const Vector<Real> crossing{p.x - p.y * (q.x - p.x) / (q.y - p.y), Real(0)};
+      add_line(left_label, left, crossing, crossing, far_left, crossing.x);
+      add_line(right_label, right, crossing, crossing, crossing.x, far_right);
+    }
+  }
+  if (sites_.owner(s.a) == segment) add_vertex(s.a, a);
+  if (sites_.owner(s.b) == segment) add_vertex(s.b, b);
+}
+
+template class SideCell<double>;
+template class SideCell<quad>;
+
+}  // namespace krepl::voronoi

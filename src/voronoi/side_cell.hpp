@@ -1,0 +1,126 @@
+#pragma once
+
+#include <cmath>
+
+#include "voronoi/envelope.hpp"
+
+namespace krepl::voronoi {
+
+/// 1 - n.y of a unit vector, without cancellation.
+template <class Real>
+Real one_minus_y(Vector<Real> n) {
+  return n.y > 0 ? n.x * n.x / (1 + n.y) : 1 - n.y;
+}
+
+/// A bisector of a side with another site, in the side's frame (x along, y outwards): the heights y of centres whose
+/// distance to the other site is y as well. With a point it is a parabola, with a line a line.
+template <class Real>
+struct SideCurve {
+  Index label = none;
+  bool is_line = false;
+  Vector<Real> at{};      // the point; of a line: a place (x, height) on the bisector
+  Vector<Real> normal{};  // lines: the site's, towards the centres
+  Vector<Real> anchor{};  // lines: a point of the site
+  Real gap = 0;           // lines: 1 - normal.y
+  Real slope = 0;         // lines: of the bisector
+
+  Real height(Real x) const {
+    if (label == none) return infinite<Real>();
+    const Real dx = x - at.x;
+    return is_line ? at.y + slope * dx : (dx * dx + at.y * at.y) / (2 * at.y);
+  }
+};
+
+/// Two points: the lower one is nearer between the roots of (q2y - q1y) t^2 + 2 q1y dx t + q1y (q2y (q1y - q2y) - dx^2), whose
+/// discriminant is q1y q2y |q1 - q2|^2; t is measured from the lower point.
+template <class Real>
+Stretches<Real> nearer_point(const SideCurve<Real>& b, const SideCurve<Real>& a) {
+  const bool b_low = b.at.y != a.at.y ? b.at.y < a.at.y : b.label < a.label;
+  const Vector<Real> p = b_low ? b.at : a.at, q = b_low ? a.at : b.at;
+  const Vector<Real> d = q - p;
+  const Real root = kernel::square_root(p.y * q.y) * zone::length(d);
+  const Real half = p.y * d.x, last = -p.y * (q.y * d.y + d.x * d.x);
+  const Real t = half > 0 ? -(half + root) : root - half;
+  Real low = d.y > 0 ? t / d.y : (t < 0 ? -infinite<Real>() : infinite<Real>()), high = last / t;
+  if (high < low) std::swap(low, high);
+  low += p.x, high += p.x;
+  return b_low ? Stretches<Real>::between(low, high) : Stretches<Real>::outside(low, high);
+}
+
+/// A point at height h over a line: nearer than the line between qy slope -+ sqrt(2 qy h / (1 - n.y)), from the point.
+template <class Real>
+Stretches<Real> nearer_point_than_line(const SideCurve<Real>& point, const SideCurve<Real>& line, bool point_is_new) {
+  const Real h = dot(line.normal, point.at - line.anchor);
+  if (!(h > 0)) return point_is_new ? Stretches<Real>::nowhere() : Stretches<Real>::all();
+  const Real half = kernel::square_root(2 * point.at.y * h / line.gap), middle = point.at.y * line.slope + point.at.x;
+  return point_is_new ? Stretches<Real>::between(middle - half, middle + half)
+                      : Stretches<Real>::outside(middle - half, middle + half);
+}
+
+template <class Real>
+Stretches<Real> nearer_line(const SideCurve<Real>& b, const SideCurve<Real>& a) {
+  const Real turn = b.slope - a.slope;
+  const Real rise = a.at.y - b.at.y + a.slope * (b.at.x - a.at.x);  // a above b where b's place is
+  if (turn == 0) return rise > 0 ? Stretches<Real>::all() : Stretches<Real>::nowhere();
+  const Real x = b.at.x + rise / turn;
+  return turn > 0 ? Stretches<Real>::between(-infinite<Real>(), x) : Stretches<Real>::between(x, infinite<Real>());
+}
+
+/// Where curve b is below curve a.
+template <class Real>
+Stretches<Real> nearer(const SideCurve<Real>& b, const SideCurve<Real>& a) {
+  if (a.label == none) return Stretches<Real>::all();
+  if (a.label == b.label) return Stretches<Real>::nowhere();
+  if (a.is_line && b.is_line) return nearer_line(b, a);
+  if (a.is_line) return nearer_point_than_line(b, a, true);
+  if (b.is_line) return nearer_point_than_line(a, b, false);
+  return nearer_point(b, a);
+}
+
+/// The face of an open segment's side: between the perpendiculars at its ends, below the bisectors with all other sites.
+template <class Real>
+class SideCell {
+ public:
+  using Curve = SideCurve<Real>;
+
+  explicit SideCell(const Sites& sites) : sites_(sites) {}
+  void start(Index element);
+  /// Takes a site (a segment with the vertices it brings along, or an isolated vertex) into account; returns true if the face changed.
+  bool add_site(Index site);
+
+  Index element() const { return element_; }
+  Real length() const { return length_; }
+  bool is_own(Index site) const { return site == element_ >> 1; }
+  const std::vector<typename Envelope<Real, Curve>::Arc>& arcs() const { return envelope_.arcs(); }
+  /// A vertex in the side's frame.
+  Vector<Real> locate(Index vertex) const { return rotate(sites_.instance().template difference<Real>(vertex, ends_.from)); }
+  Vector<Real> rotate(Vector<Real> v) const { return {dot(v, u_), v.x * u_.y - v.y * u_.x}; }
+  /// From the frame to the plane, relative to the vertex the side starts from.
+  Vector<Real> plane(Vector<Real> p) const { return {p.x * u_.x + p.y * u_.y, p.x * u_.y - p.y * u_.x}; }
+  Instance::Ends ends() const { return ends_; }
+
+ private:
+  void insert(const Curve& curve, Real low, Real high) { changed_ = envelope_.insert(curve, low, high) || changed_; }
+  /// Centre of the circle that touches the base and, from the normal's side, a line at its end q.
+  Vector<Real> touching(Vector<Real> q, Vector<Real> n) const {
+    const Real r = q.y / one_minus_y(n);
+    return {q.x + r * n.x, r};
+  }
+  void add_vertex(Index vertex, Vector<Real> q);
+  void add_segment(Index segment);
+  void add_incident(Index segment, bool at_end, Vector<Real> other, Vector<Real> away, bool reversed);
+  void add_line(Index label, Vector<Real> normal, Vector<Real> anchor, Vector<Real> place, Real low, Real high);
+
+  const Sites& sites_;
+  Index element_ = none;
+  Instance::Ends ends_{};
+  Vector<Real> u_{};
+  Real length_ = 0;
+  bool changed_ = false;
+  Envelope<Real, Curve> envelope_;
+};
+
+extern template class SideCell<double>;
+extern template class SideCell<quad>;
+
+}  // namespace krepl::voronoi

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "voronoi/sites.hpp"
+
+namespace krepl::voronoi {
+
+/// A packed tree of bounding boxes, eight children a node, over the sites in their (Hilbert) order, in single precision
+/// rounded outwards. A search visits what lies nearest to a place first and leaves out what the caller says cannot matter.
+class SiteBoxes {
+ public:
+  struct Box {
+    Vector<double> centre, half;
+  };
+
+  SiteBoxes(const Instance& instance, const Context& context);
+
+  /// Memory that searches reuse.
+  using Heap = std::vector<std::uint64_t>;
+
+  /// Calls visit(site) for every site whose box, and the boxes above it, pass meets(box), nearest to `from` first.
+  template <class Meets, class Visit>
+  void search(Vector<double> from, Heap& heap, Meets&& meets, Visit&& visit) const;
+
+ private:
+  static constexpr int arity = 8;
+  static constexpr unsigned index_bits = 28;
+  struct Node {
+    float min_x[arity], min_y[arity], max_x[arity], max_y[arity];
+  };
+  static std::uint64_t entry(float distance, std::uint32_t level, std::uint32_t index) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(distance)} << 32 | level << index_bits | index;
+  }
+  Box box(std::uint32_t level, std::uint32_t index) const {
+    const Node& n = levels_[level][index / arity];
+    const unsigned k = index % arity;
+    const double low_x = n.min_x[k], low_y = n.min_y[k], high_x = n.max_x[k], high_y = n.max_y[k];
+    return {{(low_x + high_x) / 2, (low_y + high_y) / 2}, {(high_x - low_x) / 2, (high_y - low_y) / 2}};
+  }
+
+  std::vector<std::vector<Node>> levels_;  // levels_[0]: boxes of sites; the last level is one node
+  std::vector<std::uint32_t> count_;       // boxes per level
+};
+
+template <class Meets, class Visit>
+void SiteBoxes::search(Vector<double> from, Heap& heap, Meets&& meets, Visit&& visit) const {
+  heap.clear();
+  const auto open = [&](std::uint32_t level, std::uint32_t node) {
+    const std::uint32_t last = std::min(count_[level], (node + 1) * arity);
+    for (std::uint32_t i = node * arity; i < last; ++i) {
+      const Box b = box(level, i);
+      if (!meets(b)) continue;
+      const double dx = std::max(std::abs(b.centre.x - from.x) - b.half.x, 0.0);
+      const double dy = std::max(std::abs(b.centre.y - from.y) - b.half.y, 0.0);
+      heap.push_back(entry(float(dx * dx + dy * dy), level, i));
+      std::push_heap(heap.begin(), heap.end(), std::greater<>{});
+    }
+  };
+  open(std::uint32_t(levels_.size() - 1), 0);
+  while (!heap.empty()) {
+    std::pop_heap(heap.begin(), heap.end(), std::greater<>{});
+    const std::uint64_t e = heap.back();
+    heap.pop_back();
+    const std::uint32_t level = std::uint32_t(e) >> index_bits, index = std::uint32_t(e) & ((1u << index_bits) - 1);
+    if (!meets(box(level, index))) continue;  // what was found meanwhile may rule it out
+    if (level == 0) {
+      visit(index);
+    } else {
+      open(level - 1, index);
+    }
+  }
+}
+
+}  // namespace krepl::voronoi

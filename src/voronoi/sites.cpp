@@ -1,0 +1,25 @@
+#include "voronoi/sites.hpp"
+
+#include "kernel/parallel.hpp"
+
+namespace krepl::voronoi {
+
+Sites::Sites(const Instance& instance, const Context& context) : in_(instance) {
+  const std::size_t segments = instance.side_count() / 2, vertices = instance.vertices().size();
+  kernel::resize_pages(context, direction_, segments);
+  kernel::resize_pages(context, owner_, vertices, none);
+  Context quiet;
+  quiet.threads = context.threads;
+  kernel::parallel_blocks(quiet, segments, 1 << 14, [&](std::size_t first, std::size_t last) {
+    for (std::size_t s = first; s < last; ++s) direction_[s] = unit<double>(Index(s));
+  });
+  kernel::parallel_blocks(quiet, vertices, 1 << 14, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) {
+      const Index before = instance.sector(Index(v)).before;
+      if (before != none && instance.is_side(before)) owner_[v] = before >> 1;
+    }
+  });
+  for (Index i = Index(segments); i < instance.site_count(); ++i) owner_[instance.site(i).a] = i;
+}
+
+}  // namespace krepl::voronoi

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <type_traits>
+#include <vector>
+
+#include "krepl/context.hpp"
+#include "zone/instance.hpp"
+
+namespace krepl::voronoi {
+
+using kernel::quad;
+using zone::Index;
+using zone::Instance;
+using zone::none;
+template <class Real>
+using Vector = zone::Vector<Real>;
+
+template <class Real>
+Real dot(Vector<Real> a, Vector<Real> b) {
+  return a.x * b.x + a.y * b.y;
+}
+template <class Real>
+Real cross(Vector<Real> a, Vector<Real> b) {
+  return a.x * b.y - a.y * b.x;
+}
+template <class Real>
+Vector<Real> operator-(Vector<Real> a, Vector<Real> b) {
+  return {a.x - b.x, a.y - b.y};
+}
+template <class Real>
+Vector<Real> operator+(Vector<Real> a, Vector<Real> b) {
+  return {a.x + b.x, a.y + b.y};
+}
+template <class Real>
+Vector<Real> operator*(Real s, Vector<Real> a) {
+  return {s * a.x, s * a.y};
+}
+
+/// The instance of docs/zone.md with what cells ask of it again and again. Elements are numbered as there: side 2s lies on
+/// the right of segment s from a to b, 2s+1 on the right of its reverse, side_count() + v is vertex v.
+class Sites {
+ public:
+  Sites(const Instance& instance, const Context& context);
+
+  const Instance& instance() const { return in_; }
+  bool is_side(Index element) const { return in_.is_side(element); }
+
+  /// Unit vector from a to b of a segment.
+  template <class Real>
+  Vector<Real> direction(Index segment) const {
+    if constexpr (std::is_same_v<Real, double>) {
+      return direction_[segment];
+    } else {
+      return unit<Real>(segment);
+    }
+  }
+  /// Unit vector away from the segment, on the side.
+  template <class Real>
+  Vector<Real> normal(Index side) const {
+    const Vector<Real> d = direction<Real>(side >> 1);
+    return (side & 1u) ? Vector<Real>{-d.y, d.x} : Vector<Real>{d.y, -d.x};
+  }
+  /// The site that brings a vertex's face along, so that no face is looked at twice; none if the vertex has no face.
+  Index owner(Index vertex) const { return owner_[vertex]; }
+
+ private:
+  template <class Real>
+  Vector<Real> unit(Index segment) const {
+    const auto s = in_.site(segment);
+    const Vector<Real> d = in_.difference<Real>(s.b, s.a);
+    const Real l = zone::length(d);
+    return {d.x / l, d.y / l};
+  }
+
+  const Instance& in_;
+  std::vector<Vector<double>> direction_;
+  std::vector<Index> owner_;
+};
+
+}  // namespace krepl::voronoi

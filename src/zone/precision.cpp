@@ -1,0 +1,41 @@
+#include "zone/precision.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace krepl::zone {
+namespace {
+
+constexpr double largest_number = 1e18, smallest_radius = 1e-100;
+
+double unit_in_last_place(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()) - x; }
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+}  // namespace
+
+Result<Precision> precision_for(const Network& network, double radius) {
+  if (!std::isfinite(radius) || radius <= 0) {
+    return Error{ErrorCode::usage, "the radius is " + number(radius), "", "give a positive, finite number"};
+  }
+  const double scale = std::max(radius, network.extent());
+  if (scale > largest_number || radius < smallest_radius) {
+    return Error{ErrorCode::input, "coordinates or radius are beyond 1e18, or the radius is below 1e-100", "",
+                 "scale the input"};
+  }
+  const double u = std::max(network.resolution(), unit_in_last_place(scale));
+  if (radius < 16384 * u) {
+    return Error{ErrorCode::usage, "the radius " + number(radius) + " is finer than the coordinates can hold", "",
+                 "use at least " + number(16384 * u)};
+  }
+  const double most = 0x1p-31 * scale;  // half of the contract's 1e-9 S
+  const double enlargement = std::min(std::max(4 * u, 0x1p-48 * scale), most);
+  return Precision{radius + enlargement, std::max(4 * u, std::min(64 * enlargement, most))};
+}
+
+}  // namespace krepl::zone

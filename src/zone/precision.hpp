@@ -1,0 +1,24 @@
+#pragma once
+
+#include "krepl/error.hpp"
+#include "krepl/network.hpp"
+
+namespace krepl::zone {
+
+/// Error budget, in terms of S = max(R, extent) and u, the unit in the last place of the largest output coordinate:
+///   g: radius enlarged by     max(4 u, 2^-48 S) , so that what comes that close merges     <= 3.6e-15 S
+///   vertices moved by         2^-72 extent, in ill-conditioned places only                 <= 2.2e-22 S
+///   evaluation of a vertex    a few u                                                      ~ 1e-15 S
+///   contraction of pieces     up to 64 g along the boundary, g off it                      <= 2.3e-13 S
+/// where u <= 2^-52 S unless the data lies far from its own origin, when u is what the format can hold; g and 64 g are
+/// capped at 2^-31 S there. Vertices are evaluated with the nominal radius where that shifts them by at most a quarter
+/// of the length below which pieces are contracted.
+struct Precision {
+  double effective_radius;
+  double resolution;
+};
+
+/// ErrorCode::usage or input if the radius is not positive and finite, or too fine or too large for the coordinates.
+Result<Precision> precision_for(const Network& network, double radius);
+
+}  // namespace krepl::zone
