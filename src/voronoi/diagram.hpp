@@ -23,11 +23,11 @@ struct Diagram {
   static constexpr Index base = none - 1;  // in place of a neighbour: the site itself, or a crossing of segments
 
   std::vector<Index> begin;
-  std::vector<Index> label;    // the face on the other side; none: there is none
+  std::vector<Index> label;    // the face on the other side; none: the horizon
   std::vector<Index> twin;     // the same link seen from there; none: there is none
   std::vector<Index> vertex;   // where the link ends
   std::vector<double> minimum; // the least clearance along the link, at most that of its ends
-  std::vector<Point> place;      // per vertex; a direction where the clearance is infinite
+  std::vector<Point> place;      // per vertex
   std::vector<double> clearance; // per vertex
   DiagramCounters counters;
 

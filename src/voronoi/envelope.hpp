@@ -40,7 +40,7 @@ struct Stretches {
 };
 
 /// The face of one site, as the lower envelope of its bisectors with all others over the site's own parameter (the place
-/// along a side, the direction from a vertex). `Curve` has a label, none where no site is near; `nearer(b, a)` tells where
+/// along a side, the direction from a vertex). `Curve` has a label, none for the horizon; `nearer(b, a)` tells where
 /// b lies below a.
 template <class Real, class Curve>
 class Envelope {
@@ -50,41 +50,82 @@ class Envelope {
     Curve curve;
   };
 
-  void start(Real low, Real high) {
+  void start(Real low, Real high, const Curve& horizon) {
     arcs_.clear();
-    arcs_.push_back({low, high, Curve{}});
+    arcs_.push_back({low, high, horizon});
   }
   const std::vector<Arc>& arcs() const { return arcs_; }
 
   /// Takes the minimum with a curve that is defined between low and high. Returns true if anything changed.
   bool insert(const Curve& curve, Real low, Real high) {
     if (!(low < high)) return false;
-    bool changed = false;
-    next_.clear();
-    for (const Arc& arc : arcs_) changed = cut(arc, curve, low, high) || changed;
-    if (changed) arcs_.swap(next_);
-    return changed;
+    wins_.clear();
+    first_ = 0;
+    while (first_ < arcs_.size() && !(arcs_[first_].end > low)) ++first_;
+    for (std::size_t i = first_; i < arcs_.size() && arcs_[i].begin < high; ++i) wins_.push_back(win(arcs_[i], curve, low, high));
+    for (std::size_t k = 0; k + 1 < wins_.size(); ++k) agree(arcs_[first_ + k], wins_[k], arcs_[first_ + k + 1], wins_[k + 1]);
+    if (std::none_of(wins_.begin(), wins_.end(), [](const Win& w) { return w.holds[0] || w.holds[1]; })) return false;
+    next_.assign(arcs_.begin(), arcs_.begin() + std::ptrdiff_t(first_));
+    for (std::size_t k = 0; k < wins_.size(); ++k) cut(arcs_[first_ + k], wins_[k], curve);
+    next_.insert(next_.end(), arcs_.begin() + std::ptrdiff_t(first_ + wins_.size()), arcs_.end());
+    arcs_.swap(next_);
+    return true;
   }
 
  private:
-  /// Appends what becomes of one arc; stretches of length zero vanish.
-  bool cut(const Arc& arc, const Curve& curve, Real low, Real high) {
+  /// Where the new curve is nearer than an arc's, before and after it is cut to the arc.
+  struct Win {
+    Stretches<Real> whole;
+    Real from[2], to[2];
+    bool holds[2] = {false, false};
+  };
+
+  static Win win(const Arc& arc, const Curve& curve, Real low, Real high) {
+    Win w;
+    w.whole = nearer(curve, arc.curve);
     const Real u = std::max(arc.begin, low), v = std::min(arc.end, high);
-    if (!(u < v)) {
-      append(arc.begin, arc.end, arc.curve);
-      return false;
+    for (int i = 0; i < w.whole.count; ++i) {
+      w.from[i] = std::max(u, w.whole.stretch[i].low), w.to[i] = std::min(v, w.whole.stretch[i].high);
+      w.holds[i] = w.from[i] < w.to[i];
     }
-    const auto wins = nearer(curve, arc.curve);
+    return w;
+  }
+
+  /// The distance of a place from the nearest end of a stretch.
+  static Real margin(const Win& w, Real x) {
+    Real least = infinite<Real>();
+    for (int i = 0; i < w.whole.count; ++i) {
+      least = std::min({least, distance(w.whole.stretch[i].low, x), distance(w.whole.stretch[i].high, x)});
+    }
+    return least;
+  }
+  static bool join(Real a, Real b) {
+    const Real near = std::sqrt(kernel::unit_roundoff<Real>) * 0x1p-12;
+    return distance(a, b) <= near * std::max(a, b);
+  }
+  static Real distance(Real a, Real b) { return a < b ? b - a : a - b; }
+
+  /// Where two arcs are equally high at their common end, the new curve wins over both there or over none. Where rounding says
+  /// otherwise the answer with the wider margin holds.
+  static void agree(const Arc& before, Win& left, const Arc& after, Win& right) {
+    const Real x = after.begin;
+    const int l = left.holds[1] && left.to[1] == x ? 1 : (left.holds[0] && left.to[0] == x ? 0 : -1);
+    const int r = right.holds[0] && right.from[0] == x ? 0 : (right.holds[1] && right.from[1] == x ? 1 : -1);
+    if ((l >= 0) == (r >= 0) || !join(before.curve.height(x), after.curve.height(x))) return;
+    if (l >= 0 && r < 0 && margin(left, x) < margin(right, x)) left.holds[l] = false;
+    if (r >= 0 && l < 0 && margin(right, x) < margin(left, x)) right.holds[r] = false;
+  }
+
+  /// Appends what becomes of one arc; stretches of length zero vanish.
+  void cut(const Arc& arc, const Win& w, const Curve& curve) {
     Real done = arc.begin;
-    for (int i = 0; i < wins.count; ++i) {
-      const Real from = std::max(u, wins.stretch[i].low), to = std::min(v, wins.stretch[i].high);
-      if (!(from < to) || from < done) continue;
-      append(done, from, arc.curve);
-      append(from, to, curve);
-      done = to;
+    for (int i = 0; i < 2; ++i) {
+      if (!w.holds[i]) continue;
+      append(done, w.from[i], arc.curve);
+      append(w.from[i], w.to[i], curve);
+      done = w.to[i];
     }
     append(done, arc.end, arc.curve);
-    return done > arc.begin;
   }
   void append(Real begin, Real end, const Curve& curve) {
     if (!(begin < end)) return;
@@ -95,6 +136,8 @@ class Envelope {
     }
   }
 
+  std::size_t first_ = 0;
+  std::vector<Win> wins_;
   std::vector<Arc> arcs_, next_;
 };
 

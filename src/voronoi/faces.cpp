@@ -17,26 +17,16 @@ Vector<double> rounded(Vector<Real> v) {
 /// The least distance along an arc of a side's border: a parabola has its lowest point under the other site.
 template <class Real>
 Real lowest(const SideCurve<Real>& curve, Real begin, Real end) {
-  if (curve.label == none) return infinite<Real>();
   if (!curve.is_line && begin < curve.at.x && curve.at.x < end) return curve.at.y / 2;
   return std::min(curve.height(begin), curve.height(end));
 }
 template <class Real>
 Real lowest(const VertexCurve<Real>& curve, Real begin, Real end) {
-  if (curve.label == none) return infinite<Real>();
   const Real along = curve.w.x, across = curve.w.y;
   if (along > 0 && begin * along < across && across < end * along) {
     return curve.is_line ? curve.distance / 2 : zone::length(curve.at) / 2;
   }
   return std::min(curve.height(begin), curve.height(end));
-}
-
-/// Borders that meet at the same place are as high as the lower of the two says.
-template <class Arcs>
-double joint(const Arcs& arcs, std::size_t i) {
-  const auto& a = arcs[i];
-  if (a.curve.label == none || (i + 1 < arcs.size() && arcs[i + 1].curve.label == none)) return infinite<double>();
-  return double(a.curve.height(a.end));
 }
 
 }  // namespace
@@ -88,8 +78,7 @@ void FaceBuilder::build_precisely(Index element, std::vector<Link>& out) {
     const auto s = in.site(site);
     const Point a = in.vertices()[s.a], b = in.vertices()[s.b];
     const SiteBoxes::Box box{{(a.x + b.x) / 2, (a.y + b.y) / 2},
-                             {std::abs(a.x - b.x) / 2 * (1 + 0x1p-40) + 0x1p-45 * in.extent(),
-                              std::abs(a.y - b.y) / 2 * (1 + 0x1p-40) + 0x1p-45 * in.extent()}};
+                             {std::abs(a.x - b.x) / 2, std::abs(a.y - b.y) / 2}};
     const Index from = in.is_side(element) ? in.ends(element).from : in.vertex_of(element);
     const Vector<double> base{in.vertices()[from].x, in.vertices()[from].y};
     return in.is_side(element) ? reach_.meets(side_, box, base) : reach_.meets(vertex_, box, base);
@@ -116,7 +105,6 @@ bool FaceBuilder::write(const SideCell<Real>& cell, std::vector<Link>& out) cons
   const Point base = in.vertices()[ends.from];
   const auto& arcs = cell.arcs();
   const auto place = [&](Real x, double height) {
-    if (height == infinite<double>()) return sum({0, 0}, rounded(cell.plane({Real(0), Real(1)})));
     return sum(base, rounded(cell.plane({x, Real(height)})));
   };
   const bool starts = in.sector(ends.from).after == cell.element(), stops = in.sector(ends.to).before == cell.element();
@@ -125,7 +113,7 @@ bool FaceBuilder::write(const SideCell<Real>& cell, std::vector<Link>& out) cons
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const auto& a = arcs[i];
     const bool last = i + 1 == arcs.size();
-    const double height = joint(arcs, i);
+    const double height = double(a.curve.height(a.end));
     out.push_back({a.curve.label, height, double(lowest(a.curve, a.begin, a.end)), place(a.end, height)});
     if (last && !stops) out.back().clearance = 0, out.back().end = in.vertices()[ends.to];
   }
@@ -138,9 +126,7 @@ template <class Real>
 bool FaceBuilder::write(const VertexCell<Real>& cell, std::vector<Link>& out) const {
   const Instance& in = sites_.instance();
   const Point base = in.vertices()[cell.vertex()];
-  const auto place = [&](Vector<double> u, double height) {
-    return height == infinite<double>() ? sum({0, 0}, u) : sum(base, height * u);
-  };
+  const auto place = [&](Vector<double> u, double height) { return sum(base, height * u); };
   if (!cell.is_isolated()) {
     const auto& chart = cell.chart(0);
     const auto& arc = chart.envelope.arcs().front();
@@ -152,7 +138,7 @@ bool FaceBuilder::write(const VertexCell<Real>& cell, std::vector<Link>& out) co
     const auto& chart = cell.chart(k);
     const auto& arcs = chart.envelope.arcs();
     for (std::size_t i = 0; i < arcs.size(); ++i) {
-      const double height = joint(arcs, i);
+      const double height = double(arcs[i].curve.height(arcs[i].end));
       const Link link{arcs[i].curve.label, height, double(lowest(arcs[i].curve, arcs[i].begin, arcs[i].end)),
                       place(rounded(chart.direction(arcs[i].end)), height)};
       if (i == 0 && k > 0 && out.back().label == link.label) {  // goes on from the chart before

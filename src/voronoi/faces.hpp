@@ -7,12 +7,12 @@
 
 namespace krepl::voronoi {
 
-/// A stretch of a face's border: the neighbour (none: there is none, the face is unbounded), and where it ends.
+/// A stretch of a face's border: the neighbour (none: the horizon, the face is unbounded), and where it ends.
 struct Link {
   Index label = none;
-  double clearance = 0;  ///< distance of the end from the sites; infinite where the border runs away
+  double clearance = 0;  ///< distance of the end from the sites
   double minimum = 0;    ///< the least distance along the link
-  Point end{};           ///< relative to the network's origin; a direction where the clearance is infinite
+  Point end{};           ///< relative to the network's origin
 };
 
 /// Counts for --verbose.
@@ -26,7 +26,8 @@ struct FaceCounters {
 class FaceBuilder {
  public:
   FaceBuilder(const Sites& sites, const SiteBoxes& boxes)
-      : sites_(sites), boxes_(boxes), side_(sites), vertex_(sites), precise_side_(sites), precise_vertex_(sites) {}
+      : sites_(sites), boxes_(boxes), side_(sites), vertex_(sites), precise_side_(sites), precise_vertex_(sites),
+        reach_(0x1p-45 * sites.instance().extent()) {}
 
   /// Appends the face of an element in double precision. Returns false if it is certainly wrong: take build_precisely.
   bool build(Index element, std::vector<Link>& out);

@@ -8,8 +8,6 @@
 namespace krepl::voronoi {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 struct Place {
   Vector<quad> centre;
   quad radius;
@@ -94,7 +92,7 @@ class Placing {
       const Index n = next(j);
       j = n == none ? none : d_.twin[n];
     } while (j != none && j != i);
-    if (j == none) {  // it comes to an end: at the site itself, or at infinity; so take the other way round as well
+    if (j == none) {  // it comes to an end, at the site itself or at the horizon: the other way round as well
       for (j = i; j != none && d_.twin[j] != none;) {
         j = before(d_.twin[j]);
         if (j != none) orbit_.push_back(j);
@@ -106,22 +104,21 @@ class Placing {
   }
 
   void evaluate() {
-    const Link* best = &link(orbit_[0]);
-    double least = infinity, most = 0, spread = 0;
+    const Link& best = link(orbit_[0]);
+    double least = best.clearance, most = least, spread = 0;
+    bool at_horizon = false;
     for (const Index k : orbit_) {
       const Link& l = link(k);
+      at_horizon = at_horizon || l.label == none;
       least = std::min(least, l.clearance), most = std::max(most, l.clearance);
-      if (l.clearance == infinity) {
-        best = &l;
-        break;
-      }
-      spread = std::max(spread, std::abs(l.end.x - best->end.x) + std::abs(l.end.y - best->end.y));
+      spread = std::max(spread, std::abs(l.end.x - best.end.x) + std::abs(l.end.y - best.end.y));
     }
-    Point end = best->end;
-    double clearance = least == 0 ? 0 : best->clearance;
-    if (clearance > 0 && clearance < infinity && orbit_.size() > 2 && (most - least > tolerance_ || spread > tolerance_)) {
+    Point end = best.end;
+    double clearance = least == 0 ? 0 : best.clearance;
+    const double tolerance = std::max(tolerance_, 0x1p-50 * clearance);
+    if (clearance > 0 && !at_horizon && orbit_.size() > 2 && (most - least > tolerance || spread > tolerance)) {
       ++d_.counters.vertices_in_quadruple;
-      Place p{{best->end.x, best->end.y}, best->clearance};
+      Place p{{best.end.x, best.end.y}, best.clearance};
       if (settle(sites_, {face_[orbit_[0]], face_[orbit_[1]], face_[orbit_[2]]}, p)) {
         end = {double(p.centre.x), double(p.centre.y)};
         clearance = double(p.radius);

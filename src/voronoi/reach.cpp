@@ -39,8 +39,8 @@ bool Reach::side_meets(const Stretch& s, Vector<double> low, Vector<double> high
 
 bool Reach::meets(const SideCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const {
   const Vector<double> c = cell.rotate(box.centre - base), u = cell.plane({1, 0});
-  const Vector<double> half{std::abs(u.x) * box.half.x + std::abs(u.y) * box.half.y,
-                            std::abs(u.y) * box.half.x + std::abs(u.x) * box.half.y};
+  const Vector<double> half{std::abs(u.x) * box.half.x + std::abs(u.y) * box.half.y + slack_,
+                            std::abs(u.y) * box.half.x + std::abs(u.x) * box.half.y + slack_};
   const Vector<double> low{c.x - half.x, std::max(c.y - half.y, 0.0)}, high = c + half;
   if (!(high.y > 0) || !side_meets(whole_, low, high)) return false;
   if (stretches_.size() == 1) return true;
@@ -54,26 +54,22 @@ bool Reach::meets(const SideCell<double>& cell, const SiteBoxes::Box& box, Vecto
 /// that radius.
 bool Reach::vertex_meets(const Stretch& s, Vector<double> c, Vector<double> h) {
   const auto highest = [&](Vector<double> d) { return dot(d, c) + std::abs(d.x) * h.x + std::abs(d.y) * h.y; };
-  if (s.height == infinite<double>()) {
-    if (highest(s.first) >= 0 || highest(s.last) >= 0) return true;
-  } else {
-    for (const Vector<double> u : {s.first, s.last}) {
-      const double dx = std::max(std::abs(c.x - s.height * u.x) - h.x, 0.0);
-      const double dy = std::max(std::abs(c.y - s.height * u.y) - h.y, 0.0);
-      if (dx * dx + dy * dy <= s.height * s.height * wider) return true;
-    }
-    const double dx = std::max(std::abs(c.x) - h.x, 0.0), dy = std::max(std::abs(c.y) - h.y, 0.0);
-    if (dx * dx + dy * dy > 4 * s.height * s.height) return false;
+  for (const Vector<double> u : {s.first, s.last}) {
+    const double dx = std::max(std::abs(c.x - s.height * u.x) - h.x, 0.0);
+    const double dy = std::max(std::abs(c.y - s.height * u.y) - h.y, 0.0);
+    if (dx * dx + dy * dy <= s.height * s.height * wider) return true;
   }
+  const double dx = std::max(std::abs(c.x) - h.x, 0.0), dy = std::max(std::abs(c.y) - h.y, 0.0);
+  if (dx * dx + dy * dy > 4 * s.height * s.height) return false;
   return highest({-s.first.y, s.first.x}) >= 0 && highest({s.last.y, -s.last.x}) >= 0;
 }
 
 bool Reach::meets(const VertexCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const {
-  const Vector<double> c = box.centre - base;
-  if (!cell.is_isolated() && !vertex_meets(whole_, c, box.half)) return false;
+  const Vector<double> c = box.centre - base, half{box.half.x + slack_, box.half.y + slack_};
+  if (!cell.is_isolated() && !vertex_meets(whole_, c, half)) return false;
   if (stretches_.size() == 1) return true;
   for (const Stretch& s : stretches_) {
-    if (vertex_meets(s, c, box.half)) return true;
+    if (vertex_meets(s, c, half)) return true;
   }
   return false;
 }

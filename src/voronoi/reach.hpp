@@ -9,9 +9,11 @@
 namespace krepl::voronoi {
 
 /// Which boxes may hold a site that cuts a face as found so far: those that meet one of the empty disks about the face's
-/// border. Told a little too often (by 1e-9 of the disk), so that ties are seen.
+/// border. Told a little too often (by 1e-9 of the disk and 2^-45 of the extent), so that ties are seen.
 class Reach {
  public:
+  /// `slack`: by how much boxes are widened, so that what only the move of vertices brings near is seen.
+  explicit Reach(double slack) : slack_(slack) {}
   void update(const SideCell<double>& cell);
   void update(const VertexCell<double>& cell);
   bool meets(const SideCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const;
@@ -28,6 +30,7 @@ class Reach {
   static bool side_meets(const Stretch& s, Vector<double> low, Vector<double> high);
   static bool vertex_meets(const Stretch& s, Vector<double> centre, Vector<double> half);
 
+  double slack_;
   std::vector<Stretch> stretches_;
   Stretch whole_{};
 };

@@ -9,7 +9,10 @@ void SideCell<Real>::start(Index element) {
   const Vector<Real> d = sites_.direction<Real>(element >> 1);
   u_ = (element & 1u) ? Vector<Real>{-d.x, -d.y} : d;
   length_ = zone::length(sites_.instance().template difference<Real>(ends_.to, ends_.from));
-  envelope_.start(0, length_);
+  Curve horizon;
+  horizon.is_line = true;
+  horizon.at = {0, Real(sites_.horizon())};
+  envelope_.start(0, length_, horizon);
 }
 
 template <class Real>
@@ -50,10 +53,7 @@ void SideCell<Real>::add_vertex(Index vertex, Vector<Real> q) {
 }
 
 template <class Real>
-void SideCell<Real>::add_line(Index label, Vector<Real> normal, Vector<Real> anchor, Vector<Real> place, Real low, Real high) {
-  Curve curve;
-  curve.label = label;
-  curve.is_line = true;
+void SideCell<Real>::add_line(Curve curve, Vector<Real> normal, Vector<Real> anchor, Vector<Real> place, Real low, Real high) {
   curve.at = place;
   curve.normal = normal;
   curve.anchor = anchor;
@@ -65,13 +65,14 @@ void SideCell<Real>::add_line(Index label, Vector<Real> normal, Vector<Real> anc
 
 /// A segment that shares an end with the base: its bisector starts in that end, exactly.
 template <class Real>
-void SideCell<Real>::add_incident(Index segment, bool at_end, Vector<Real> other, Vector<Real> away, bool reversed) {
+void SideCell<Real>::add_incident(Curve line, bool at_end, Vector<Real> other, Vector<Real> away, bool reversed) {
   if (!(other.y > 0)) return;
   const Vector<Real> corner{at_end ? length_ : Real(0), Real(0)};
   const Vector<Real> n = at_end ? Vector<Real>{-away.y, away.x} : Vector<Real>{away.y, -away.x};
   if (!(at_end ? n.x < 0 : n.x > 0)) return;
   const Real limit = touching(other, n).x;
-  add_line(2 * segment + (at_end == reversed ? 1u : 0u), n, corner, corner, at_end ? limit : Real(0), at_end ? length_ : limit);
+  line.label += at_end == reversed ? 1 : 0;
+  add_line(line, n, corner, corner, at_end ? limit : Real(0), at_end ? length_ : limit);
 }
 
 template <class Real>
@@ -80,26 +81,32 @@ void SideCell<Real>::add_segment(Index segment) {
   const Vector<Real> a = locate(s.a), b = locate(s.b);
   if (!(a.y > 0) && !(b.y > 0)) return;
   Vector<Real> d = rotate(sites_.direction<Real>(segment));
+  Curve line;
+  line.label = 2 * segment;
+  line.is_line = true;
+  line.ends[0] = s.a, line.ends[1] = s.b;
+  line.places[0] = a, line.places[1] = b;
   const bool a_own = s.a == ends_.from || s.a == ends_.to, b_own = s.b == ends_.from || s.b == ends_.to;
   if (a_own) {
-    add_incident(segment, s.a == ends_.to, b, d, false);
+    add_incident(line, s.a == ends_.to, b, d, false);
   } else if (b_own) {
-    add_incident(segment, s.b == ends_.to, a, {-d.x, -d.y}, true);
+    add_incident(line, s.b == ends_.to, a, {-d.x, -d.y}, true);
   } else {
     const bool reversed = b.y < a.y;  // the lower end first, so that d points upwards
     const Vector<Real> p = reversed ? b : a, q = reversed ? a : b;
     if (reversed) d = {-d.x, -d.y};
     const Vector<Real> left{-d.y, d.x}, right{d.y, -d.x};
-    const Index left_label = 2 * segment + (reversed ? 1u : 0u), right_label = left_label ^ 1u;
+    Curve left_line = line, right_line = line;
+    (reversed ? left_line : right_line).label += 1;
     const Real far_left = touching(q, left).x, far_right = touching(q, right).x;
     if (p.y > 0) {
       const Vector<Real> near_left = touching(p, left), near_right = touching(p, right);
-      add_line(left_label, left, p, near_left, far_left, near_left.x);
-      add_line(right_label, right, p, near_right, near_right.x, far_right);
+      add_line(left_line, left, p, near_left, far_left, near_left.x);
+      add_line(right_line, right, p, near_right, near_right.x, far_right);
     } else {  // it crosses the base's line
       const Vector<Real> crossing{p.x - p.y * (q.x - p.x) / (q.y - p.y), Real(0)};
-      add_line(left_label, left, crossing, crossing, far_left, crossing.x);
-      add_line(right_label, right, crossing, crossing, crossing.x, far_right);
+      add_line(left_line, left, crossing, crossing, far_left, crossing.x);
+      add_line(right_line, right, crossing, crossing, crossing.x, far_right);
     }
   }
   if (sites_.owner(s.a) == segment) add_vertex(s.a, a);

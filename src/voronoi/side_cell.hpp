@@ -21,11 +21,12 @@ struct SideCurve {
   Vector<Real> at{};      // the point; of a line: a place (x, height) on the bisector
   Vector<Real> normal{};  // lines: the site's, towards the centres
   Vector<Real> anchor{};  // lines: a point of the site
+  Index ends[2] = {none, none};  // lines: the vertices of the site
+  Vector<Real> places[2]{};      // lines: where they are
   Real gap = 0;           // lines: 1 - normal.y
   Real slope = 0;         // lines: of the bisector
 
   Real height(Real x) const {
-    if (label == none) return infinite<Real>();
     const Real dx = x - at.x;
     return is_line ? at.y + slope * dx : (dx * dx + at.y * at.y) / (2 * at.y);
   }
@@ -47,29 +48,60 @@ Stretches<Real> nearer_point(const SideCurve<Real>& b, const SideCurve<Real>& a)
   return b_low ? Stretches<Real>::between(low, high) : Stretches<Real>::outside(low, high);
 }
 
-/// A point at height h over a line: nearer than the line between qy slope -+ sqrt(2 qy h / (1 - n.y)), from the point.
+/// A point at height h over a line is nearer than the line between the roots of t^2 - 2 qy slope t + qy^2 - 2 qy m, t measured from
+/// the point and m the bisector's height over it; the discriminant is 2 qy h / (1 - n.y).
 template <class Real>
 Stretches<Real> nearer_point_than_line(const SideCurve<Real>& point, const SideCurve<Real>& line, bool point_is_new) {
-  const Real h = dot(line.normal, point.at - line.anchor);
+  const Vector<Real> q = point.at;
+  const Real h = dot(line.normal, q - line.anchor);
   if (!(h > 0)) return point_is_new ? Stretches<Real>::nowhere() : Stretches<Real>::all();
-  const Real half = kernel::square_root(2 * point.at.y * h / line.gap), middle = point.at.y * line.slope + point.at.x;
-  return point_is_new ? Stretches<Real>::between(middle - half, middle + half)
-                      : Stretches<Real>::outside(middle - half, middle + half);
+  const Real root = kernel::square_root(2 * q.y * h / line.gap), half = q.y * line.slope;
+  const Real far = half > 0 ? half + root : half - root;
+  const Real near = q.y * (q.y - 2 * line.height(q.x)) / far;
+  const Real low = std::min(far, near) + q.x, high = std::max(far, near) + q.x;
+  return point_is_new ? Stretches<Real>::between(low, high) : Stretches<Real>::outside(low, high);
+}
+
+/// The vertex that two sites share, as a pair of indices into SideCurve::ends.
+template <class Curve>
+bool shared_end(const Curve& a, const Curve& b, int& i, int& k) {
+  for (i = 0; i < 2; ++i) {
+    for (k = 0; k < 2; ++k) {
+      if (a.ends[i] == b.ends[k] && a.ends[i] != none) return true;
+    }
+  }
+  return false;
 }
 
 template <class Real>
 Stretches<Real> nearer_line(const SideCurve<Real>& b, const SideCurve<Real>& a) {
   const Real turn = b.slope - a.slope;
+  int i = 0, k = 0;
+  const Vector<Real> u = a.normal + b.normal;
+  if (turn != 0 && dot(u, u) > 3.99 && u.y < 1.9 && shared_end(a, b, i, k)) {
+    // Their own bisector starts in the shared vertex along the sum of the normals: sharp even where they are nearly parallel.
+    const Vector<Real> q = a.places[i];
+    const Real x = q.x + u.x * q.y / (dot(u, u) / 2 - u.y);
+    return turn > 0 ? Stretches<Real>::between(-infinite<Real>(), x) : Stretches<Real>::between(x, infinite<Real>());
+  }
   const Real rise = a.at.y - b.at.y + a.slope * (b.at.x - a.at.x);  // a above b where b's place is
   if (turn == 0) return rise > 0 ? Stretches<Real>::all() : Stretches<Real>::nowhere();
   const Real x = b.at.x + rise / turn;
   return turn > 0 ? Stretches<Real>::between(-infinite<Real>(), x) : Stretches<Real>::between(x, infinite<Real>());
 }
 
+template <class Real>
+Stretches<Real> nearer_point_than_horizon(const SideCurve<Real>& point, Real horizon) {
+  const Real square = point.at.y * (2 * horizon - point.at.y);
+  if (!(square > 0)) return Stretches<Real>::nowhere();
+  const Real half = kernel::square_root(square);
+  return Stretches<Real>::between(point.at.x - half, point.at.x + half);
+}
+
 /// Where curve b is below curve a.
 template <class Real>
 Stretches<Real> nearer(const SideCurve<Real>& b, const SideCurve<Real>& a) {
-  if (a.label == none) return Stretches<Real>::all();
+  if (a.label == none && !b.is_line) return nearer_point_than_horizon(b, a.at.y);
   if (a.label == b.label) return Stretches<Real>::nowhere();
   if (a.is_line && b.is_line) return nearer_line(b, a);
   if (a.is_line) return nearer_point_than_line(b, a, true);
@@ -108,8 +140,8 @@ class SideCell {
   }
   void add_vertex(Index vertex, Vector<Real> q);
   void add_segment(Index segment);
-  void add_incident(Index segment, bool at_end, Vector<Real> other, Vector<Real> away, bool reversed);
-  void add_line(Index label, Vector<Real> normal, Vector<Real> anchor, Vector<Real> place, Real low, Real high);
+  void add_incident(Curve line, bool at_end, Vector<Real> other, Vector<Real> away, bool reversed);
+  void add_line(Curve line, Vector<Real> normal, Vector<Real> anchor, Vector<Real> place, Real low, Real high);
 
   const Sites& sites_;
   Index element_ = none;

@@ -31,7 +31,9 @@ void VertexCell<Real>::add_chart(Vector<Real> middle, Vector<Real> low, Vector<R
   c.middle = middle;
   const Vector<Real> l = c.rotate(low), h = c.rotate(high);
   c.low = l.y / l.x, c.high = h.y / h.x;
-  c.envelope.start(c.low, c.high);
+  Curve horizon;
+  horizon.c = 1 / Real(sites_.horizon());
+  c.envelope.start(c.low, c.high, horizon);
 }
 
 template <class Real>
@@ -129,6 +131,8 @@ void VertexCell<Real>::add_line(Index segment, Vector<Real> a, Vector<Real> b) {
     curve.at = chart.rotate(a_nearer ? a : b);
     curve.normal = chart.rotate(n);
     curve.distance = kernel::absolute(signed_distance);
+    curve.ends[0] = sites_.instance().site(segment).a, curve.ends[1] = sites_.instance().site(segment).b;
+    curve.places[0] = chart.rotate(a), curve.places[1] = chart.rotate(b);
     curve.c = 1 / curve.distance;
     curve.w = (-curve.c) * curve.normal;
     const auto range = chart_stretches(chart.rotate(first), chart.rotate(last));

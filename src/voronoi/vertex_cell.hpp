@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "voronoi/envelope.hpp"
+#include "voronoi/side_cell.hpp"
 
 namespace krepl::voronoi {
 
@@ -18,10 +18,11 @@ struct VertexCurve {
   Vector<Real> at{};      // the point; of a line: a point of it
   Vector<Real> normal{};  // lines: towards the vertex
   Real c = 0, distance = 0;
+  Index ends[2] = {none, none};  // lines: the vertices of the site
+  Vector<Real> places[2]{};      // lines: where they are
 
   /// Distance of the bisector from the vertex in the chart's direction t.
   Real height(Real t) const {
-    if (label == none) return infinite<Real>();
     const Real stretch = kernel::square_root(1 + t * t), nearness = c * stretch + w.x + w.y * t;
     return nearness > 0 ? stretch / nearness : infinite<Real>();
   }
@@ -51,13 +52,28 @@ Stretches<Real> nearer_around(Real a0, Vector<Real> d, Real square) {
   return chart_stretches<Real>({-a0 * d.x + s * d.y, -a0 * d.y - s * d.x}, {-a0 * d.x - s * d.y, -a0 * d.y + s * d.x});
 }
 
+/// Two lines that share a vertex q: their own bisector starts there along u, the sum of their normals, and meets that with the
+/// face's vertex in q + t u, a root of k e t^2 + 2 q.u t + |q|^2 with k = |u|^2 / 2, e = |difference of the normals|^2 / 2. Sharp even
+/// where the lines are nearly parallel.
+template <class Real>
+Stretches<Real> nearer_of_incident(const VertexCurve<Real>& b, const VertexCurve<Real>& a, Vector<Real> q, Vector<Real> d) {
+  const Vector<Real> u = a.normal + b.normal, turn = a.normal - b.normal;
+  const Real ke = dot(u, u) * dot(turn, turn) / 4, half = -dot(q, u), square = half * half - ke * dot(q, q);
+  if (!(square > 0)) return b.c > a.c ? Stretches<Real>::all() : Stretches<Real>::nowhere();
+  const Real root = half > 0 ? half + kernel::square_root(square) : half - kernel::square_root(square);
+  const Vector<Real> near = q + (dot(q, q) / root) * u, far = ke * q + root * u;  // the length does not matter
+  return cross(near, d) > 0 ? chart_stretches(near, far) : chart_stretches(far, near);
+}
+
 /// Where curve b is nearer to the vertex than curve a.
 template <class Real>
 Stretches<Real> nearer(const VertexCurve<Real>& b, const VertexCurve<Real>& a) {
-  if (a.label == none) return b.is_line ? Stretches<Real>::all() : nearer_around<Real>(0, b.w, dot(b.w, b.w));
   if (a.label == b.label) return Stretches<Real>::nowhere();
   const Vector<Real> d = b.w - a.w;
+  if (a.label == none) return nearer_around<Real>(b.c - a.c, d, b.is_line ? a.c * (2 * b.c - a.c) : dot(d, d) - a.c * a.c);
   if (a.is_line && b.is_line) {
+    int i = 0, k = 0;
+    if (dot(a.normal, b.normal) > 0 && shared_end(a, b, i, k)) return nearer_of_incident(b, a, a.places[i], d);
     const Vector<Real> turn = a.normal - b.normal;
     return nearer_around<Real>(b.c - a.c, d, dot(turn, turn) / (a.distance * b.distance));
   }

@@ -62,10 +62,7 @@ std::vector<VoronoiDiagram::Edge> VoronoiDiagram::edges() const {
   const voronoi::Diagram& d = parts_->diagram;
   const voronoi::Instance& in = parts_->instance;
   const Point origin = network().origin();
-  const auto absolute = [&](Index vertex) {
-    const Point p = d.place[vertex];
-    return std::isinf(d.clearance[vertex]) ? p : Point{p.x + origin.x, p.y + origin.y};
-  };
+  const auto absolute = [&](Index vertex) { return Point{d.place[vertex].x + origin.x, d.place[vertex].y + origin.y}; };
   std::vector<Edge> edges;
   edges.reserve(edge_count());
   for (Index f = 0; f < d.face_count(); ++f) {
