@@ -109,17 +109,27 @@ bool FaceBuilder::write(const SideCell<Real>& cell, std::vector<Link>& out) cons
   };
   const bool starts = in.sector(ends.from).after == cell.element(), stops = in.sector(ends.to).before == cell.element();
   const double left = double(arcs.front().curve.height(0));
-  if (starts) out.push_back({in.circle(ends.from), left, 0, place(0, left)});
+  const Index first = starts ? in.circle(ends.from) : cell.corner(0), last = stops ? in.circle(ends.to) : cell.corner(1);
+  if (first == none || last == none) return false;
+  if (first != arcs.front().curve.label) out.push_back({first, left, 0, place(0, left)});
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const auto& a = arcs[i];
-    const bool last = i + 1 == arcs.size();
     const double height = double(a.curve.height(a.end));
     out.push_back({a.curve.label, height, double(lowest(a.curve, a.begin, a.end)), place(a.end, height)});
-    if (last && !stops) out.back().clearance = 0, out.back().end = in.vertices()[ends.to];
+    if (i + 1 == arcs.size()) continue;
+    // A segment that crosses the base at a narrow angle: its far side's stretch may be too short to be seen.
+    const auto& b = arcs[i + 1];
+    const bool falls = height == 0, rises = b.curve.height(b.begin) == 0;
+    if (falls && (a.curve.label ^ 1u) != b.curve.label) {
+      const double top = double(b.curve.height(b.begin));
+      out.push_back({a.curve.label ^ 1u, top, 0, place(b.begin, top)});
+    } else if (rises && (b.curve.label ^ 1u) != a.curve.label) {
+      out.push_back({b.curve.label ^ 1u, 0, 0, place(b.begin, 0)});
+    }
   }
-  if (stops) out.push_back({in.circle(ends.to), 0, 0, in.vertices()[ends.to]});
-  const double right = double(arcs.back().curve.height(cell.length()));
-  return starts == (left > 0) && stops == (right > 0);
+  if (last != arcs.back().curve.label) out.push_back({last, 0, 0, {}});
+  out.back().clearance = 0, out.back().end = in.vertices()[ends.to];
+  return true;
 }
 
 template <class Real>

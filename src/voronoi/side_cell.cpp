@@ -9,6 +9,7 @@ void SideCell<Real>::start(Index element) {
   const Vector<Real> d = sites_.direction<Real>(element >> 1);
   u_ = (element & 1u) ? Vector<Real>{-d.x, -d.y} : d;
   length_ = zone::length(sites_.instance().template difference<Real>(ends_.to, ends_.from));
+  corner_[0] = corner_[1] = {};
   Curve horizon;
   horizon.is_line = true;
   horizon.at = {0, Real(sites_.horizon())};
@@ -72,6 +73,9 @@ void SideCell<Real>::add_incident(Curve line, bool at_end, Vector<Real> other, V
   if (!(at_end ? n.x < 0 : n.x > 0)) return;
   const Real limit = touching(other, n).x;
   line.label += at_end == reversed ? 1 : 0;
+  Curve& nearest = corner_[at_end ? 1 : 0];
+  const Real slope = kernel::absolute(n.x / one_minus_y(n));
+  if (nearest.label == none || slope < nearest.slope) nearest.label = line.label, nearest.slope = slope;
   add_line(line, n, corner, corner, at_end ? limit : Real(0), at_end ? length_ : limit);
 }
 

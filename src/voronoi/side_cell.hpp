@@ -124,6 +124,9 @@ class SideCell {
   Real length() const { return length_; }
   bool is_own(Index site) const { return site == element_ >> 1; }
   const std::vector<typename Envelope<Real, Curve>::Arc>& arcs() const { return envelope_.arcs(); }
+  /// The other side at the concave corner at the start (0) or end (1): with it the border begins or ends, in the corner itself, even
+  /// if that stretch is too short to be seen. None if there is no corner.
+  Index corner(int end) const { return corner_[end].label; }
   /// A vertex in the side's frame.
   Vector<Real> locate(Index vertex) const { return rotate(sites_.instance().template difference<Real>(vertex, ends_.from)); }
   Vector<Real> rotate(Vector<Real> v) const { return {dot(v, u_), v.x * u_.y - v.y * u_.x}; }
@@ -149,6 +152,7 @@ class SideCell {
   Vector<Real> u_{};
   Real length_ = 0;
   bool changed_ = false;
+  Curve corner_[2];
   Envelope<Real, Curve> envelope_;
 };
 
