@@ -1,5 +1,6 @@
 #include "voronoi/faces.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace krepl::voronoi {
@@ -71,29 +72,40 @@ bool FaceBuilder::build(Index element, std::vector<Link>& out) {
   return sites_.is_side(element) ? write(side_, out) : write(vertex_, out) && sound;
 }
 
+/// The candidates that still come near, then, as double precision may have taken a site for nearer than it is, all others that
+/// come near the face in quadruple precision.
+template <class Cell, class Precise>
+void FaceBuilder::gather_precisely(const Cell& cell, Precise& precise, Vector<double> base) {
+  const Instance& in = sites_.instance();
+  near_.clear();
+  for (const Index site : candidates_) {
+    const auto s = in.site(site);
+    const Point a = in.vertices()[s.a], b = in.vertices()[s.b];
+    const SiteBoxes::Box box{{(a.x + b.x) / 2, (a.y + b.y) / 2}, {std::abs(a.x - b.x) / 2, std::abs(a.y - b.y) / 2}};
+    if (!reach_.meets(cell, box, base)) continue;
+    near_.push_back(site);
+    precise.add_site(site);
+  }
+  std::sort(near_.begin(), near_.end());
+  reach_.update(precise);
+  boxes_.search(
+      base, heap_, [&](const SiteBoxes::Box& box) { return reach_.meets(cell, box, base); },
+      [&](Index site) {
+        if (!std::binary_search(near_.begin(), near_.end(), site) && precise.add_site(site)) reach_.update(precise);
+      });
+}
+
 void FaceBuilder::build_precisely(Index element, std::vector<Link>& out) {
   find_candidates(element);
   const Instance& in = sites_.instance();
-  const auto near = [&](Index site) {
-    const auto s = in.site(site);
-    const Point a = in.vertices()[s.a], b = in.vertices()[s.b];
-    const SiteBoxes::Box box{{(a.x + b.x) / 2, (a.y + b.y) / 2},
-                             {std::abs(a.x - b.x) / 2, std::abs(a.y - b.y) / 2}};
-    const Index from = in.is_side(element) ? in.ends(element).from : in.vertex_of(element);
-    const Vector<double> base{in.vertices()[from].x, in.vertices()[from].y};
-    return in.is_side(element) ? reach_.meets(side_, box, base) : reach_.meets(vertex_, box, base);
-  };
+  const Point base = in.vertices()[in.is_side(element) ? in.ends(element).from : in.vertex_of(element)];
   if (in.is_side(element)) {
     precise_side_.start(element);
-    for (const Index site : candidates_) {
-      if (near(site)) precise_side_.add_site(site);
-    }
+    gather_precisely(side_, precise_side_, {base.x, base.y});
     write(precise_side_, out);
   } else {
     precise_vertex_.start(in.vertex_of(element));
-    for (const Index site : candidates_) {
-      if (near(site)) precise_vertex_.add_site(site);
-    }
+    gather_precisely(vertex_, precise_vertex_, {base.x, base.y});
     write(precise_vertex_, out);
   }
 }

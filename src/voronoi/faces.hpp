@@ -39,6 +39,8 @@ class FaceBuilder {
  private:
   template <class Cell>
   void gather(Cell& cell, Index around, Vector<double> base, Vector<double> from);
+  template <class Cell, class Precise>
+  void gather_precisely(const Cell& cell, Precise& precise, Vector<double> base);
   bool find_candidates(Index element);
   template <class Real>
   bool write(const SideCell<Real>& cell, std::vector<Link>& out) const;

@@ -4,25 +4,28 @@
 
 namespace krepl::voronoi {
 
-void Reach::update(const SideCell<double>& cell) {
+template <class Real>
+void Reach::update(const SideCell<Real>& cell) {
   stretches_.clear();
   double highest = 0;
   for (const auto& arc : cell.arcs()) {
-    const double height = std::max(arc.curve.height(arc.begin), arc.curve.height(arc.end)) * wider;
-    stretches_.push_back({arc.begin, arc.end, height, {}, {}});
+    const double height = double(std::max(arc.curve.height(arc.begin), arc.curve.height(arc.end))) * wider;
+    stretches_.push_back({double(arc.begin), double(arc.end), height, {}, {}});
     highest = std::max(highest, height);
   }
-  whole_ = {0, cell.length(), highest, {}, {}};
+  whole_ = {0, double(cell.length()), highest, {}, {}};
 }
 
-void Reach::update(const VertexCell<double>& cell) {
+template <class Real>
+void Reach::update(const VertexCell<Real>& cell) {
+  const auto unit = [](Vector<Real> u) { return Vector<double>{double(u.x), double(u.y)}; };
   stretches_.clear();
   double highest = 0;
   for (int i = 0; i < cell.chart_count(); ++i) {
     const auto& chart = cell.chart(i);
     for (const auto& arc : chart.envelope.arcs()) {
-      const double height = std::max(arc.curve.height(arc.begin), arc.curve.height(arc.end)) * wider;
-      stretches_.push_back({arc.begin, arc.end, height, chart.direction(arc.begin), chart.direction(arc.end)});
+      const double height = double(std::max(arc.curve.height(arc.begin), arc.curve.height(arc.end))) * wider;
+      stretches_.push_back({double(arc.begin), double(arc.end), height, unit(chart.direction(arc.begin)), unit(chart.direction(arc.end))});
       highest = std::max(highest, height);
     }
   }
@@ -73,5 +76,10 @@ bool Reach::meets(const VertexCell<double>& cell, const SiteBoxes::Box& box, Vec
   }
   return false;
 }
+
+template void Reach::update(const SideCell<double>&);
+template void Reach::update(const SideCell<quad>&);
+template void Reach::update(const VertexCell<double>&);
+template void Reach::update(const VertexCell<quad>&);
 
 }  // namespace krepl::voronoi

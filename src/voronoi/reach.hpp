@@ -14,8 +14,10 @@ class Reach {
  public:
   /// `slack`: by how much boxes are widened, so that what only the move of vertices brings near is seen.
   explicit Reach(double slack) : slack_(slack) {}
-  void update(const SideCell<double>& cell);
-  void update(const VertexCell<double>& cell);
+  template <class Real>
+  void update(const SideCell<Real>& cell);
+  template <class Real>
+  void update(const VertexCell<Real>& cell);
   bool meets(const SideCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const;
   bool meets(const VertexCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const;
 
