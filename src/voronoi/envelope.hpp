@@ -106,14 +106,14 @@ class Envelope {
   static Real distance(Real a, Real b) { return a < b ? b - a : a - b; }
 
   /// Where two arcs are equally high at their common end, the new curve wins over both there or over none. Where rounding says
-  /// otherwise the answer with the wider margin holds.
+  /// otherwise, a stretch that is shorter than the other arc's margin is none.
   static void agree(const Arc& before, Win& left, const Arc& after, Win& right) {
     const Real x = after.begin;
     const int l = left.holds[1] && left.to[1] == x ? 1 : (left.holds[0] && left.to[0] == x ? 0 : -1);
     const int r = right.holds[0] && right.from[0] == x ? 0 : (right.holds[1] && right.from[1] == x ? 1 : -1);
     if ((l >= 0) == (r >= 0) || !join(before.curve.height(x), after.curve.height(x))) return;
-    if (l >= 0 && r < 0 && margin(left, x) < margin(right, x)) left.holds[l] = false;
-    if (r >= 0 && l < 0 && margin(right, x) < margin(left, x)) right.holds[r] = false;
+    if (l >= 0 && x - left.whole.stretch[l].low < margin(right, x)) left.holds[l] = false;
+    if (r >= 0 && right.whole.stretch[r].high - x < margin(left, x)) right.holds[r] = false;
   }
 
   /// Appends what becomes of one arc; stretches of length zero vanish.
