@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
 #include "kernel/parallel.hpp"
 #include "voronoi/glue.hpp"
@@ -118,50 +118,83 @@ Error disagreement(const Sites& sites, Index face) {
           "please report this input"};
 }
 
-/// Brings all faces to agree. Faces done in quadruple precision are true ones of the moved instance, so they agree with each
-/// other; what grows from round to round is only the rim where they meet faces in double precision.
-Status settle(const Sites& sites, const SiteBoxes& boxes, const Context& context, Borders& borders, std::vector<char>& again,
-              DiagramCounters& counters) {
-  const Index n = Index(borders.count.size());
-  std::vector<char> precise(n, 0);
-  std::vector<Index> faces(n);
-  for (Index e = 0; e < n; ++e) faces[e] = e;
-  mark_disagreeing(borders, faces, context, again);
-  for (int round = 0;; ++round) {
-    faces.clear();
-    Index stuck = none;
-    for (Index e = 0; e < n; ++e) {
-      if (!again[e]) continue;
-      if (!precise[e]) faces.push_back(e);
-      if (precise[e] && stuck == none) stuck = e;
-    }
-    if (faces.empty() && stuck == none) return std::monostate{};
-    if (faces.empty() || round == most_rounds) return disagreement(sites, stuck == none ? faces[0] : stuck);
-    ++counters.rounds;
-    counters.faces_in_quadruple += faces.size();
-    std::vector<char> look(n, 0);
-    const auto look_around = [&] {
-      for (const Index e : faces) {
-        look[e] = 1;
-        for (const Link& l : borders.border(e)) {
-          if (l.label != none) look[l.label] = 1;
-        }
+class Settling {
+ public:
+  Settling(const Sites& sites, const SiteBoxes& boxes, const Context& context, Borders& borders, std::vector<char>& again,
+           DiagramCounters& counters)
+      : sites_(sites), boxes_(boxes), context_(context), borders_(borders), again_(again), counters_(counters),
+        precise_(borders.count.size(), 0) {}
+
+  /// Brings all faces to agree. Faces done in quadruple precision are true ones of the moved instance, so they agree with each
+  /// other but for links too short even for that; what grows from round to round is only the rim where they meet faces in double
+  /// precision.
+  Status run() {
+    std::vector<Index> all(borders_.count.size());
+    std::iota(all.begin(), all.end(), 0);
+    mark_disagreeing(borders_, all, context_, again_);
+    for (int round = 0;; ++round) {
+      std::vector<Index> faces = marked([&](Index e) { return again_[e] && !precise_[e]; });
+      const std::vector<Index> stuck = marked([&](Index e) { return again_[e] && precise_[e]; });
+      if (faces.empty() && stuck.empty()) return std::monostate{};
+      if (round == most_rounds) return disagreement(sites_, faces.empty() ? stuck[0] : faces[0]);
+      look_.assign(precise_.size(), 0);
+      for (const Index e : stuck) look_[e] = 1;
+      if (faces.empty()) {
+        if (!insert_missing(stuck)) return disagreement(sites_, stuck[0]);
+      } else {
+        do_again(faces);
+        if (context_.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
       }
-    };
-    look_around();
-    for (Index e = 0; e < n; ++e) look[e] = char(look[e] || again[e]);
-    build_again(sites, boxes, faces, context, borders);
-    if (context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
-    look_around();
-    for (const Index e : faces) precise[e] = 1;
-    faces.clear();
-    for (Index e = 0; e < n; ++e) {
-      if (look[e]) faces.push_back(e);
+      again_.assign(precise_.size(), 0);
+      mark_disagreeing(borders_, marked([&](Index e) { return look_[e] != 0; }), context_, again_);
     }
-    again.assign(n, 0);
-    mark_disagreeing(borders, faces, context, again);
   }
-}
+
+ private:
+  template <class Test>
+  std::vector<Index> marked(Test&& test) const {
+    std::vector<Index> faces;
+    for (Index e = 0; e < precise_.size(); ++e) {
+      if (test(e)) faces.push_back(e);
+    }
+    return faces;
+  }
+  void look_around(Index face) {
+    look_[face] = 1;
+    for (const Link& l : borders_.border(face)) {
+      if (l.label != none) look_[l.label] = 1;
+    }
+  }
+  void do_again(const std::vector<Index>& faces) {
+    ++counters_.rounds;
+    counters_.faces_in_quadruple += faces.size();
+    for (const Index e : faces) look_around(e);  // those that were neighbours
+    build_again(sites_, boxes_, faces, context_, borders_);
+    for (const Index e : faces) look_around(e), precise_[e] = 1;
+  }
+  bool insert_missing(const std::vector<Index>& stuck) {
+    const double tolerance = 0x1p-48 * sites_.instance().extent();
+    bool any = false;
+    for (const Index face : stuck) {
+      for (Index k = 0; k < borders_.count[face]; ++k) {
+        const Index link = borders_.first[face] + k, other = borders_.links[link].label;
+        if (other == none || borders_.twin(face, link) != none || !borders_.insert_twin(face, link, tolerance)) continue;
+        ++counters_.links_inserted;
+        look_around(face), look_around(other);
+        any = true;
+      }
+    }
+    return any;
+  }
+
+  const Sites& sites_;
+  const SiteBoxes& boxes_;
+  const Context& context_;
+  Borders& borders_;
+  std::vector<char>& again_;
+  DiagramCounters& counters_;
+  std::vector<char> precise_, look_;
+};
 
 /// Lays the borders out face by face and finds the twins.
 Diagram lay_out(const Borders& borders, const Context& context) {
@@ -198,7 +231,7 @@ Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, const 
   DiagramCounters counters;
   std::vector<char> again;
   if (!build_faces(sites, boxes, context, borders, again, counters)) return cancelled;
-  if (Status agreed = settle(sites, boxes, context, borders, again, counters); !agreed) return agreed.error();
+  if (Status agreed = Settling(sites, boxes, context, borders, again, counters).run(); !agreed) return agreed.error();
   Diagram d = lay_out(borders, context);
   d.counters = counters;
   place_vertices(sites, borders, context, d);

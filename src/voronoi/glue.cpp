@@ -1,5 +1,7 @@
 #include "voronoi/glue.hpp"
 
+#include <cmath>
+
 namespace krepl::voronoi {
 
 Index Borders::before(Index face, Index link) const {
@@ -16,6 +18,26 @@ Index Borders::after(Index face, Index link) const {
     return neighbour(links[link].label, links[first[face]].label);
   }
   return neighbour(links[link].label, links[link + 1].label);
+}
+
+bool Borders::insert_twin(Index face, Index link, double tolerance) {
+  const Link l = links[link];
+  if (link == first[face] || l.label == none) return false;
+  const Index p = before(face, link), n = after(face, link), other = l.label;
+  const Point start = links[link - 1].end;
+  const auto near = [&](Point a, Point b) { return std::abs(a.x - b.x) <= tolerance && std::abs(a.y - b.y) <= tolerance; };
+  for (Index i = first[other]; i + 1 < first[other] + count[other]; ++i) {
+    if (links[i].label != n || links[i + 1].label != p || !near(links[i].end, l.end) || !near(links[i].end, start)) continue;
+    const Index begin = Index(links.size());
+    const std::vector<Link> old(border(other).begin(), border(other).end());
+    links.insert(links.end(), old.begin(), old.begin() + (i + 1 - first[other]));
+    links.push_back({face, links.back().clearance, links.back().clearance, links.back().end});
+    links.insert(links.end(), old.begin() + (i + 1 - first[other]), old.end());
+    first[other] = begin;
+    ++count[other];
+    return true;
+  }
+  return false;
 }
 
 Index Borders::twin(Index face, Index link) const {
