@@ -33,43 +33,76 @@ Real lowest(const VertexCurve<Real>& curve, Real begin, Real end) {
 }  // namespace
 
 template <class Cell>
-void FaceBuilder::gather(Cell& cell, Index around, Vector<double> base, Vector<double> from) {
+void FaceBuilder::gather(Cell& cell, Index around, std::vector<Index>& recent, Vector<double> base, Vector<double> from) {
+  const Index sites = sites_.instance().site_count();
+  candidates_.clear();
+  reach_.update(cell, cell, base);
   const auto take = [&](Index site) {
     candidates_.push_back(site);
     ++counters.candidates;
-    if (cell.add_site(site)) reach_.update(cell);
+    if (cell.add_site(site)) reach_.update(cell, cell, base);
   };
-  candidates_.clear();
-  reach_.update(cell);
-  const Index sites = sites_.instance().site_count();
   const Index first = around > neighbours ? around - neighbours : 0, last = std::min(around + neighbours + 1, sites);
   for (Index site = first; site < last; ++site) take(site);
+  for (const Index site : recent) {
+    if (site < first || site >= last) take(site);
+  }
+  const std::size_t seeds = candidates_.size();
   boxes_.search(
-      from, heap_, [&](const SiteBoxes::Box& box) { return reach_.meets(cell, box, base); },
+      from, heap_, [&]() -> const SiteBoxes::Box& { return reach_.window(); },
+      [&](const SiteBoxes::Box& box) { return reach_.meets(cell, box, base); },
       [&](Index site) {
-        if (site < first || site >= last) take(site);
+        if (std::find(candidates_.begin(), candidates_.begin() + std::ptrdiff_t(seeds), site) ==
+            candidates_.begin() + std::ptrdiff_t(seeds)) {
+          take(site);
+        }
       });
 }
 
+namespace {
+
+/// The sites of a face's neighbours: the next face of the same kind probably has the same ones.
+template <class Arcs>
+void remember(const Sites& sites, const Arcs& arcs, std::vector<Index>& recent) {
+  constexpr std::size_t most = 12;
+  for (const auto& arc : arcs) {
+    const Index label = arc.curve.label;
+    if (label == none || recent.size() >= most) continue;
+    const Index site = sites.is_side(label) ? label >> 1 : sites.owner(sites.instance().vertex_of(label));
+    if (std::find(recent.begin(), recent.end(), site) == recent.end()) recent.push_back(site);
+  }
+}
+
+}  // namespace
+
 bool FaceBuilder::find_candidates(Index element) {
   const Instance& in = sites_.instance();
+  auto& recent = recent_[in.is_side(element) ? element & 1u : 2u];
   if (in.is_side(element)) {
     side_.start(element);
     const auto e = in.ends(element);
     const Point p = in.vertices()[e.from], q = in.vertices()[e.to];
-    gather(side_, element >> 1, {p.x, p.y}, {(p.x + q.x) / 2, (p.y + q.y) / 2});
+    gather(side_, element >> 1, recent, {p.x, p.y}, {(p.x + q.x) / 2, (p.y + q.y) / 2});
+    recent.clear();
+    remember(sites_, side_.arcs(), recent);
     return true;
   }
   const Index v = in.vertex_of(element);
-  const bool sound = vertex_.start(v);
   const Point p = in.vertices()[v];
-  gather(vertex_, sites_.owner(v), {p.x, p.y}, {p.x, p.y});
-  return sound;
+  if (!vertex_.start(v)) {
+    candidates_.clear();
+    reach_.update(vertex_, vertex_, {p.x, p.y});
+    return false;
+  }
+  gather(vertex_, sites_.owner(v), recent, {p.x, p.y}, {p.x, p.y});
+  recent.clear();
+  for (int i = 0; i < vertex_.chart_count(); ++i) remember(sites_, vertex_.chart(i).envelope.arcs(), recent);
+  return true;
 }
 
 bool FaceBuilder::build(Index element, std::vector<Link>& out) {
-  const bool sound = find_candidates(element);
-  return sites_.is_side(element) ? write(side_, out) : write(vertex_, out) && sound;
+  if (!find_candidates(element)) return false;
+  return sites_.is_side(element) ? write(side_, out) : write(vertex_, out);
 }
 
 /// The candidates that still come near, then, as double precision may have taken a site for nearer than it is, all others that
@@ -87,11 +120,12 @@ void FaceBuilder::gather_precisely(const Cell& cell, Precise& precise, Vector<do
     precise.add_site(site);
   }
   std::sort(near_.begin(), near_.end());
-  reach_.update(precise);
+  reach_.update(precise, cell, base);
   boxes_.search(
-      base, heap_, [&](const SiteBoxes::Box& box) { return reach_.meets(cell, box, base); },
+      base, heap_, [&]() -> const SiteBoxes::Box& { return reach_.window(); },
+      [&](const SiteBoxes::Box& box) { return reach_.meets(cell, box, base); },
       [&](Index site) {
-        if (!std::binary_search(near_.begin(), near_.end(), site) && precise.add_site(site)) reach_.update(precise);
+        if (!std::binary_search(near_.begin(), near_.end(), site) && precise.add_site(site)) reach_.update(precise, cell, base);
       });
 }
 

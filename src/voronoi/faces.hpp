@@ -38,7 +38,7 @@ class FaceBuilder {
 
  private:
   template <class Cell>
-  void gather(Cell& cell, Index around, Vector<double> base, Vector<double> from);
+  void gather(Cell& cell, Index around, std::vector<Index>& recent, Vector<double> base, Vector<double> from);
   template <class Cell, class Precise>
   void gather_precisely(const Cell& cell, Precise& precise, Vector<double> base);
   bool find_candidates(Index element);
@@ -56,6 +56,7 @@ class FaceBuilder {
   Reach reach_;
   SiteBoxes::Heap heap_;
   std::vector<Index> candidates_, near_;
+  std::vector<Index> recent_[3];  // sites around the last face: of either side, of a vertex
 };
 
 }  // namespace krepl::voronoi

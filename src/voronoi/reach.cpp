@@ -4,32 +4,55 @@
 
 namespace krepl::voronoi {
 
-template <class Real>
-void Reach::update(const SideCell<Real>& cell) {
-  stretches_.clear();
-  double highest = 0;
-  for (const auto& arc : cell.arcs()) {
-    const double height = double(std::max(arc.curve.height(arc.begin), arc.curve.height(arc.end))) * wider;
-    stretches_.push_back({double(arc.begin), double(arc.end), height, {}, {}});
-    highest = std::max(highest, height);
-  }
-  whole_ = {0, double(cell.length()), highest, {}, {}};
+void Reach::widen(Vector<double> c, Vector<double> h) {
+  low_ = {std::min(low_.x, c.x - h.x), std::min(low_.y, c.y - h.y)};
+  high_ = {std::max(high_.x, c.x + h.x), std::max(high_.y, c.y + h.y)};
+}
+
+void Reach::close_window() {
+  window_ = {{(low_.x + high_.x) / 2, (low_.y + high_.y) / 2},
+             {(high_.x - low_.x) / 2 * wider + 2 * slack_, (high_.y - low_.y) / 2 * wider + 2 * slack_}};
 }
 
 template <class Real>
-void Reach::update(const VertexCell<Real>& cell) {
+void Reach::update(const SideCell<Real>& cell, const SideCell<double>& frame, Vector<double> base) {
+  stretches_.clear();
+  low_ = high_ = base;
+  double highest = 0;
+  const Vector<double> u = frame.plane({1, 0});
+  for (const auto& arc : cell.arcs()) {
+    const double height = double(std::max(arc.curve.height(arc.begin), arc.curve.height(arc.end))) * wider;
+    const double begin = double(arc.begin), end = double(arc.end);
+    stretches_.push_back({begin, end, height, {}, {}});
+    highest = std::max(highest, height);
+    // The largest disks at both ends and what is between them.
+    const double half = (end - begin) / 2;
+    widen(base + frame.plane({(begin + end) / 2, height}), {height + half * std::abs(u.x), height + half * std::abs(u.y)});
+  }
+  whole_ = {0, double(cell.length()), highest, {}, {}};
+  close_window();
+}
+
+template <class Real>
+void Reach::update(const VertexCell<Real>& cell, const VertexCell<double>&, Vector<double> base) {
   const auto unit = [](Vector<Real> u) { return Vector<double>{double(u.x), double(u.y)}; };
   stretches_.clear();
+  low_ = high_ = base;
   double highest = 0;
   for (int i = 0; i < cell.chart_count(); ++i) {
     const auto& chart = cell.chart(i);
     for (const auto& arc : chart.envelope.arcs()) {
       const double height = double(std::max(arc.curve.height(arc.begin), arc.curve.height(arc.end))) * wider;
-      stretches_.push_back({double(arc.begin), double(arc.end), height, unit(chart.direction(arc.begin)), unit(chart.direction(arc.end))});
+      const Stretch s{double(arc.begin), double(arc.end), height, unit(chart.direction(arc.begin)), unit(chart.direction(arc.end))};
+      stretches_.push_back(s);
       highest = std::max(highest, height);
+      // The disks at both ends, and how far the sector between them may bulge.
+      const double bulge = height * (2 - dot(s.first, s.last));
+      for (const Vector<double> u : {s.first, s.last}) widen(base + height * u, {bulge, bulge});
     }
   }
   whole_ = {0, 0, highest, stretches_.front().first, stretches_.back().last};
+  close_window();
 }
 
 /// Of all points at height y and distance dx from the stretch, the lowest bisector is (dx^2 + y^2) / 2y high; over the box the
@@ -77,9 +100,9 @@ bool Reach::meets(const VertexCell<double>& cell, const SiteBoxes::Box& box, Vec
   return false;
 }
 
-template void Reach::update(const SideCell<double>&);
-template void Reach::update(const SideCell<quad>&);
-template void Reach::update(const VertexCell<double>&);
-template void Reach::update(const VertexCell<quad>&);
+template void Reach::update(const SideCell<double>&, const SideCell<double>&, Vector<double>);
+template void Reach::update(const SideCell<quad>&, const SideCell<double>&, Vector<double>);
+template void Reach::update(const VertexCell<double>&, const VertexCell<double>&, Vector<double>);
+template void Reach::update(const VertexCell<quad>&, const VertexCell<double>&, Vector<double>);
 
 }  // namespace krepl::voronoi

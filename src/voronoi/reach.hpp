@@ -14,10 +14,13 @@ class Reach {
  public:
   /// `slack`: by how much boxes are widened, so that what only the move of vertices brings near is seen.
   explicit Reach(double slack) : slack_(slack) {}
+  /// `base`: the place the cell's coordinates are relative to. `frame`: the same cell in double precision.
   template <class Real>
-  void update(const SideCell<Real>& cell);
+  void update(const SideCell<Real>& cell, const SideCell<double>& frame, Vector<double> base);
   template <class Real>
-  void update(const VertexCell<Real>& cell);
+  void update(const VertexCell<Real>& cell, const VertexCell<double>& frame, Vector<double> base);
+  /// A box around all empty disks.
+  const SiteBoxes::Box& window() const { return window_; }
   bool meets(const SideCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const;
   bool meets(const VertexCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const;
 
@@ -33,7 +36,12 @@ class Reach {
   static bool vertex_meets(const Stretch& s, Vector<double> centre, Vector<double> half);
 
   double slack_;
+  void widen(Vector<double> centre, Vector<double> half);
+  void close_window();
+
   std::vector<Stretch> stretches_;
+  Vector<double> low_{}, high_{};
+  SiteBoxes::Box window_{};
   Stretch whole_{};
 };
 

@@ -1,5 +1,9 @@
 #include "voronoi/site_boxes.hpp"
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include <cmath>
 #include <limits>
 
@@ -21,13 +25,37 @@ float up(double x) {
 
 }  // namespace
 
+unsigned SiteBoxes::Node::meeting(const Box& window) const {
+  const float low_x = down(window.centre.x - window.half.x), high_x = up(window.centre.x + window.half.x);
+  const float low_y = down(window.centre.y - window.half.y), high_y = up(window.centre.y + window.half.y);
+  unsigned bits = 0;
+#ifdef __SSE2__
+  for (int k = 0; k < arity; k += 4) {
+    __m128 meets = _mm_cmple_ps(_mm_loadu_ps(min_x + k), _mm_set1_ps(high_x));
+    meets = _mm_and_ps(meets, _mm_cmpge_ps(_mm_loadu_ps(max_x + k), _mm_set1_ps(low_x)));
+    meets = _mm_and_ps(meets, _mm_cmple_ps(_mm_loadu_ps(min_y + k), _mm_set1_ps(high_y)));
+    meets = _mm_and_ps(meets, _mm_cmpge_ps(_mm_loadu_ps(max_y + k), _mm_set1_ps(low_y)));
+    bits |= unsigned(_mm_movemask_ps(meets)) << k;
+  }
+#else
+  for (int k = 0; k < arity; ++k) {
+    const bool meets = min_x[k] <= high_x && max_x[k] >= low_x && min_y[k] <= high_y && max_y[k] >= low_y;
+    bits |= unsigned(meets) << k;
+  }
+#endif
+  return bits;
+}
+
 SiteBoxes::SiteBoxes(const Instance& instance, const Context& context) {
   Context quiet;
   quiet.threads = context.threads;
   std::size_t count = instance.site_count();
   do {
     const std::size_t nodes = (count + arity - 1) / arity;
-    std::vector<Node> level(nodes);
+    Node empty;
+    std::fill(empty.min_x, empty.min_x + arity, infinity), std::fill(empty.max_x, empty.max_x + arity, -infinity);
+    std::fill(empty.min_y, empty.min_y + arity, infinity), std::fill(empty.max_y, empty.max_y + arity, -infinity);
+    std::vector<Node> level(nodes, empty);
     const std::vector<Node>* below = levels_.empty() ? nullptr : &levels_.back();
     kernel::parallel_blocks(quiet, count, 1 << 12, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
@@ -41,13 +69,11 @@ SiteBoxes::SiteBoxes(const Instance& instance, const Context& context) {
           continue;
         }
         const Node& c = (*below)[i];
-        const std::size_t used = std::min<std::size_t>(arity, count_.back() - i * arity);
-        n.min_x[k] = *std::min_element(c.min_x, c.min_x + used), n.max_x[k] = *std::max_element(c.max_x, c.max_x + used);
-        n.min_y[k] = *std::min_element(c.min_y, c.min_y + used), n.max_y[k] = *std::max_element(c.max_y, c.max_y + used);
+        n.min_x[k] = *std::min_element(c.min_x, c.min_x + arity), n.max_x[k] = *std::max_element(c.max_x, c.max_x + arity);
+        n.min_y[k] = *std::min_element(c.min_y, c.min_y + arity), n.max_y[k] = *std::max_element(c.max_y, c.max_y + arity);
       }
     });
     levels_.push_back(std::move(level));
-    count_.push_back(std::uint32_t(count));
     count = nodes;
   } while (count > 1);
 }

@@ -24,14 +24,17 @@ class SiteBoxes {
   /// Memory that searches reuse.
   using Heap = std::vector<std::uint64_t>;
 
-  /// Calls visit(site) for every site whose box, and the boxes above it, pass meets(box), nearest to `from` first.
-  template <class Meets, class Visit>
-  void search(Vector<double> from, Heap& heap, Meets&& meets, Visit&& visit) const;
+  /// Calls visit(site) for every site whose box, and the boxes above it, meet window() and pass meets(box), nearest to `from`
+  /// first. Both may become narrower meanwhile.
+  template <class Window, class Meets, class Visit>
+  void search(Vector<double> from, Heap& heap, Window&& window, Meets&& meets, Visit&& visit) const;
 
  private:
   static constexpr int arity = 8;
   static constexpr unsigned index_bits = 28;
   struct Node {
+    /// Which boxes meet a window, as bits.
+    unsigned meeting(const Box& window) const;
     float min_x[arity], min_y[arity], max_x[arity], max_y[arity];
   };
   static std::uint64_t entry(float distance, std::uint32_t level, std::uint32_t index) {
@@ -45,15 +48,14 @@ class SiteBoxes {
   }
 
   std::vector<std::vector<Node>> levels_;  // levels_[0]: boxes of sites; the last level is one node
-  std::vector<std::uint32_t> count_;       // boxes per level
 };
 
-template <class Meets, class Visit>
-void SiteBoxes::search(Vector<double> from, Heap& heap, Meets&& meets, Visit&& visit) const {
+template <class Window, class Meets, class Visit>
+void SiteBoxes::search(Vector<double> from, Heap& heap, Window&& window, Meets&& meets, Visit&& visit) const {
   heap.clear();
   const auto open = [&](std::uint32_t level, std::uint32_t node) {
-    const std::uint32_t last = std::min(count_[level], (node + 1) * arity);
-    for (std::uint32_t i = node * arity; i < last; ++i) {
+    for (unsigned bits = levels_[level][node].meeting(window()); bits != 0; bits &= bits - 1) {
+      const std::uint32_t i = node * arity + std::uint32_t(std::countr_zero(bits));
       const Box b = box(level, i);
       if (!meets(b)) continue;
       const double dx = std::max(std::abs(b.centre.x - from.x) - b.half.x, 0.0);

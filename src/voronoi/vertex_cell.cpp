@@ -9,6 +9,12 @@ Vector<Real> unit(Vector<Real> v) {
   return {v.x / l, v.y / l};
 }
 
+/// Sectors below this are not told from nothing.
+template <class Real>
+constexpr double thin = 0x1p-40;
+template <>
+constexpr double thin<quad> = 0;
+
 /// The vertex's bisector with a point q, mirrored: a centre in direction u sees q in the direction that u's mirror image is.
 template <class Real>
 Vector<Real> mirrored(Vector<Real> n, Vector<Real> q) {
@@ -63,7 +69,7 @@ bool VertexCell<Real>::start(Index vertex) {
     add_chart(unit(split + high), split, high);
   }
   for (int i = 0; i < charts_; ++i) {
-    if (!(chart_[i].low < chart_[i].high)) return false;
+    if (!(chart_[i].high - chart_[i].low > thin<Real>)) return false;
   }
   return true;
 }
