@@ -40,7 +40,9 @@ void FaceBuilder::gather(Cell& cell, Index around, std::vector<Index>& recent, V
   const auto take = [&](Index site) {
     candidates_.push_back(site);
     ++counters.candidates;
-    if (cell.add_site(site)) reach_.update(cell, cell, base);
+    const bool changed = cell.add_site(site);
+    if (changed) reach_.update(cell, cell, base);
+    return changed;
   };
   const Index first = around > neighbours ? around - neighbours : 0, last = std::min(around + neighbours + 1, sites);
   for (Index site = first; site < last; ++site) take(site);
@@ -49,13 +51,11 @@ void FaceBuilder::gather(Cell& cell, Index around, std::vector<Index>& recent, V
   }
   const std::size_t seeds = candidates_.size();
   boxes_.search(
-      from, heap_, [&]() -> const SiteBoxes::Box& { return reach_.window(); },
-      [&](const SiteBoxes::Box& box) { return reach_.meets(cell, box, base); },
+      from, memory_, [&]() -> const SiteBoxes::Box& { return reach_.window(); },
+      [&](const SiteBoxes::Box& box) { return reach_.meets(box); },
       [&](Index site) {
-        if (std::find(candidates_.begin(), candidates_.begin() + std::ptrdiff_t(seeds), site) ==
-            candidates_.begin() + std::ptrdiff_t(seeds)) {
-          take(site);
-        }
+        const auto end = candidates_.begin() + std::ptrdiff_t(seeds);
+        return std::find(candidates_.begin(), end, site) == end && take(site);
       });
 }
 
@@ -115,17 +115,19 @@ void FaceBuilder::gather_precisely(const Cell& cell, Precise& precise, Vector<do
     const auto s = in.site(site);
     const Point a = in.vertices()[s.a], b = in.vertices()[s.b];
     const SiteBoxes::Box box{{(a.x + b.x) / 2, (a.y + b.y) / 2}, {std::abs(a.x - b.x) / 2, std::abs(a.y - b.y) / 2}};
-    if (!reach_.meets(cell, box, base)) continue;
+    if (!reach_.meets(box)) continue;
     near_.push_back(site);
     precise.add_site(site);
   }
   std::sort(near_.begin(), near_.end());
   reach_.update(precise, cell, base);
   boxes_.search(
-      base, heap_, [&]() -> const SiteBoxes::Box& { return reach_.window(); },
-      [&](const SiteBoxes::Box& box) { return reach_.meets(cell, box, base); },
+      base, memory_, [&]() -> const SiteBoxes::Box& { return reach_.window(); },
+      [&](const SiteBoxes::Box& box) { return reach_.meets(box); },
       [&](Index site) {
-        if (!std::binary_search(near_.begin(), near_.end(), site) && precise.add_site(site)) reach_.update(precise, cell, base);
+        if (std::binary_search(near_.begin(), near_.end(), site) || !precise.add_site(site)) return false;
+        reach_.update(precise, cell, base);
+        return true;
       });
 }
 

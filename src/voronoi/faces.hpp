@@ -54,7 +54,7 @@ class FaceBuilder {
   SideCell<quad> precise_side_;
   VertexCell<quad> precise_vertex_;
   Reach reach_;
-  SiteBoxes::Heap heap_;
+  SiteBoxes::Memory memory_;
   std::vector<Index> candidates_, near_;
   std::vector<Index> recent_[3];  // sites around the last face: of either side, of a vertex
 };

@@ -4,98 +4,109 @@
 
 namespace krepl::voronoi {
 
-void Reach::widen(Vector<double> c, Vector<double> h) {
-  low_ = {std::min(low_.x, c.x - h.x), std::min(low_.y, c.y - h.y)};
-  high_ = {std::max(high_.x, c.x + h.x), std::max(high_.y, c.y + h.y)};
+void Reach::start(Vector<double> base) {
+  base_ = base;
+  disks_.clear();
+  strips_.clear();
+  sectors_.clear();
+  low_ = high_ = {0, 0};
 }
 
-void Reach::close_window() {
-  window_ = {{(low_.x + high_.x) / 2, (low_.y + high_.y) / 2},
-             {(high_.x - low_.x) / 2 * wider + 2 * slack_, (high_.y - low_.y) / 2 * wider + 2 * slack_}};
+void Reach::widen(Vector<double> c, double half) {
+  low_ = {std::min(low_.x, c.x - half), std::min(low_.y, c.y - half)};
+  high_ = {std::max(high_.x, c.x + half), std::max(high_.y, c.y + half)};
+}
+
+void Reach::add_disk(Vector<double> centre, double radius) {
+  const double r = radius * wider + slack_;
+  disks_.push_back({centre, r * r});
+  widen(centre, r);
+}
+
+/// Strips lie within the hull of the disks at their ends, so they do not widen the window.
+void Reach::add_strip(Vector<double> p, Vector<double> q, Vector<double> n, double height) {
+  const Vector<double> d = q - p;
+  const double along = n.x * d.y - n.y * d.x;
+  strips_.push_back({p, n, std::min(along, 0.0) - slack_, std::max(along, 0.0) + slack_, height * wider + slack_});
+}
+
+void Reach::close() {
+  window_ = {{base_.x + (low_.x + high_.x) / 2, base_.y + (low_.y + high_.y) / 2},
+             {(high_.x - low_.x) / 2 * wider + slack_, (high_.y - low_.y) / 2 * wider + slack_}};
 }
 
 template <class Real>
 void Reach::update(const SideCell<Real>& cell, const SideCell<double>& frame, Vector<double> base) {
-  stretches_.clear();
-  low_ = high_ = base;
-  double highest = 0;
-  const Vector<double> u = frame.plane({1, 0});
-  for (const auto& arc : cell.arcs()) {
-    const double height = double(std::max(arc.curve.height(arc.begin), arc.curve.height(arc.end))) * wider;
+  start(base);
+  const Vector<double> outwards = frame.plane({0, 1});
+  double before = 0;
+  Vector<double> start_touch{};  // on the base
+  for (std::size_t i = 0; i < cell.arcs().size(); ++i) {
+    const auto& arc = cell.arcs()[i];
     const double begin = double(arc.begin), end = double(arc.end);
-    stretches_.push_back({begin, end, height, {}, {}});
-    highest = std::max(highest, height);
-    // The largest disks at both ends and what is between them.
-    const double half = (end - begin) / 2;
-    widen(base + frame.plane({(begin + end) / 2, height}), {height + half * std::abs(u.x), height + half * std::abs(u.y)});
+    const double first = double(arc.curve.height(arc.begin)), last = double(arc.curve.height(arc.end));
+    const double height = std::max(first, last), joint = std::max(before, first);
+    if (i == 0) start_touch = frame.plane({begin, 0});
+    const Vector<double> end_touch = frame.plane({end, 0});
+    add_disk(start_touch + joint * outwards, joint);
+    add_strip(start_touch, end_touch, outwards, arc.curve.is_line ? height : std::min(height, double(arc.curve.at.y)));
+    if (arc.curve.label != none && arc.curve.is_line) {
+      const Vector<double> n = frame.plane({double(arc.curve.normal.x), double(arc.curve.normal.y)});
+      add_strip(start_touch + first * (outwards - n), end_touch + last * (outwards - n), n, height);
+    }
+    before = last;
+    start_touch = end_touch;
   }
-  whole_ = {0, double(cell.length()), highest, {}, {}};
-  close_window();
+  add_disk(start_touch + before * outwards, before);
+  close();
 }
 
 template <class Real>
-void Reach::update(const VertexCell<Real>& cell, const VertexCell<double>&, Vector<double> base) {
-  const auto unit = [](Vector<Real> u) { return Vector<double>{double(u.x), double(u.y)}; };
-  stretches_.clear();
-  low_ = high_ = base;
-  double highest = 0;
+void Reach::update(const VertexCell<Real>& cell, const VertexCell<double>& frame, Vector<double> base) {
+  start(base);
+  const auto rounded = [](Vector<Real> u) { return Vector<double>{double(u.x), double(u.y)}; };
+  double before = 0;
+  Vector<double> u{};
   for (int i = 0; i < cell.chart_count(); ++i) {
     const auto& chart = cell.chart(i);
+    const Vector<double> middle = frame.chart(i).middle;
     for (const auto& arc : chart.envelope.arcs()) {
-      const double height = double(std::max(arc.curve.height(arc.begin), arc.curve.height(arc.end))) * wider;
-      const Stretch s{double(arc.begin), double(arc.end), height, unit(chart.direction(arc.begin)), unit(chart.direction(arc.end))};
-      stretches_.push_back(s);
-      highest = std::max(highest, height);
-      // The disks at both ends, and how far the sector between them may bulge.
-      const double bulge = height * (2 - dot(s.first, s.last));
-      for (const Vector<double> u : {s.first, s.last}) widen(base + height * u, {bulge, bulge});
+      const double first = double(arc.curve.height(arc.begin)), last = double(arc.curve.height(arc.end));
+      const Vector<double> b = rounded(chart.direction(arc.begin)), e = rounded(chart.direction(arc.end));
+      const double joint = std::max(before, first);
+      add_disk(joint * b, joint);
+      if (arc.curve.label == none) {
+        sectors_.push_back({b, e});
+        widen({0, 0}, 2 * first);
+      } else if (arc.curve.is_line) {
+        const Vector<double> v{double(arc.curve.normal.x), double(arc.curve.normal.y)};
+        const Vector<double> n{v.x * middle.x - v.y * middle.y, v.x * middle.y + v.y * middle.x};
+        add_strip(first * (b - n), last * (e - n), n, std::min(double(arc.curve.distance), std::max(first, last)));
+      }
+      before = last;
+      u = e;
     }
   }
-  whole_ = {0, 0, highest, stretches_.front().first, stretches_.back().last};
-  close_window();
+  add_disk(before * u, before);
+  close();
 }
 
-/// Of all points at height y and distance dx from the stretch, the lowest bisector is (dx^2 + y^2) / 2y high; over the box the
-/// least is at y = dx.
-bool Reach::side_meets(const Stretch& s, Vector<double> low, Vector<double> high) {
-  const double dx = std::max(std::max(s.begin - high.x, low.x - s.end), 0.0);
-  const double y = std::min(std::max(low.y, dx), high.y);
-  return y <= 0 || dx * dx + y * y <= 2 * y * s.height;
-}
-
-bool Reach::meets(const SideCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const {
-  const Vector<double> c = cell.rotate(box.centre - base), u = cell.plane({1, 0});
-  const Vector<double> half{std::abs(u.x) * box.half.x + std::abs(u.y) * box.half.y + slack_,
-                            std::abs(u.y) * box.half.x + std::abs(u.x) * box.half.y + slack_};
-  const Vector<double> low{c.x - half.x, std::max(c.y - half.y, 0.0)}, high = c + half;
-  if (!(high.y > 0) || !side_meets(whole_, low, high)) return false;
-  if (stretches_.size() == 1) return true;
-  for (const Stretch& s : stretches_) {
-    if (side_meets(s, low, high)) return true;
+bool Reach::meets(const SiteBoxes::Box& box) const {
+  const Vector<double> c = box.centre - base_, h = box.half;
+  for (const Disk& d : disks_) {
+    const double dx = std::max(std::abs(c.x - d.centre.x) - h.x, 0.0), dy = std::max(std::abs(c.y - d.centre.y) - h.y, 0.0);
+    if (dx * dx + dy * dy <= d.square) return true;
   }
-  return false;
-}
-
-/// All disks touch the vertex and none is larger than the height: they lie in the two at the ends and in the sector of twice
-/// that radius.
-bool Reach::vertex_meets(const Stretch& s, Vector<double> c, Vector<double> h) {
+  for (const Strip& s : strips_) {
+    const Vector<double> v = c - s.origin, n = s.normal;
+    const double up = dot(v, n), half = std::abs(n.x) * h.x + std::abs(n.y) * h.y;
+    if (up + half < -slack_ || up - half > s.height) continue;
+    const double along = n.x * v.y - n.y * v.x, wide = std::abs(n.y) * h.x + std::abs(n.x) * h.y;
+    if (along + wide >= s.low && along - wide <= s.high) return true;
+  }
   const auto highest = [&](Vector<double> d) { return dot(d, c) + std::abs(d.x) * h.x + std::abs(d.y) * h.y; };
-  for (const Vector<double> u : {s.first, s.last}) {
-    const double dx = std::max(std::abs(c.x - s.height * u.x) - h.x, 0.0);
-    const double dy = std::max(std::abs(c.y - s.height * u.y) - h.y, 0.0);
-    if (dx * dx + dy * dy <= s.height * s.height * wider) return true;
-  }
-  const double dx = std::max(std::abs(c.x) - h.x, 0.0), dy = std::max(std::abs(c.y) - h.y, 0.0);
-  if (dx * dx + dy * dy > 4 * s.height * s.height) return false;
-  return highest({-s.first.y, s.first.x}) >= 0 && highest({s.last.y, -s.last.x}) >= 0;
-}
-
-bool Reach::meets(const VertexCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const {
-  const Vector<double> c = box.centre - base, half{box.half.x + slack_, box.half.y + slack_};
-  if (!cell.is_isolated() && !vertex_meets(whole_, c, half)) return false;
-  if (stretches_.size() == 1) return true;
-  for (const Stretch& s : stretches_) {
-    if (vertex_meets(s, c, half)) return true;
+  for (const Sector& s : sectors_) {
+    if (highest({-s.first.y, s.first.x}) >= -slack_ && highest({s.last.y, -s.last.x}) >= -slack_) return true;
   }
   return false;
 }

@@ -9,40 +9,53 @@
 namespace krepl::voronoi {
 
 /// Which boxes may hold a site that cuts a face as found so far: those that meet one of the empty disks about the face's
-/// border. Told a little too often (by 1e-9 of the disk and 2^-45 of the extent), so that ties are seen.
+/// border. Along a bisector with a point, all disks lie in the two at its ends; along one with a line also in the strip between
+/// the line's places that these two touch. Told a little too often (by 1e-9 of the disk and `slack`), so that ties are seen.
+/// Coordinates are relative to the place given as base.
 class Reach {
  public:
   /// `slack`: by how much boxes are widened, so that what only the move of vertices brings near is seen.
   explicit Reach(double slack) : slack_(slack) {}
-  /// `base`: the place the cell's coordinates are relative to. `frame`: the same cell in double precision.
+  /// `frame`: the same cell in double precision.
   template <class Real>
   void update(const SideCell<Real>& cell, const SideCell<double>& frame, Vector<double> base);
   template <class Real>
   void update(const VertexCell<Real>& cell, const VertexCell<double>& frame, Vector<double> base);
+
+  bool meets(const SiteBoxes::Box& box) const;
   /// A box around all empty disks.
   const SiteBoxes::Box& window() const { return window_; }
-  bool meets(const SideCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const;
-  bool meets(const VertexCell<double>& cell, const SiteBoxes::Box& box, Vector<double> base) const;
 
  private:
   static constexpr double wider = 1 + 1e-9;
 
-  /// The border between two parameters, its largest height in between, and that of all.
-  struct Stretch {
-    double begin, end, height;
-    Vector<double> first, last;  // vertices: unit vectors of begin and end
+  struct Disk {
+    Vector<double> centre;
+    double square;
   };
-  static bool side_meets(const Stretch& s, Vector<double> low, Vector<double> high);
-  static bool vertex_meets(const Stretch& s, Vector<double> centre, Vector<double> half);
+  /// Places that lie up to `height` from a line on the side of `normal`, between two parameters along it.
+  struct Strip {
+    Vector<double> origin, normal;
+    double low, high, height;
+  };
+  /// Between two directions, counter-clockwise.
+  struct Sector {
+    Vector<double> first, last;
+  };
+
+  void start(Vector<double> base);
+  void add_disk(Vector<double> centre, double radius);
+  void add_strip(Vector<double> p, Vector<double> q, Vector<double> normal, double height);
+  void widen(Vector<double> centre, double half);
+  void close();
 
   double slack_;
-  void widen(Vector<double> centre, Vector<double> half);
-  void close_window();
-
-  std::vector<Stretch> stretches_;
+  Vector<double> base_{};
+  std::vector<Disk> disks_;
+  std::vector<Strip> strips_;
+  std::vector<Sector> sectors_;
   Vector<double> low_{}, high_{};
   SiteBoxes::Box window_{};
-  Stretch whole_{};
 };
 
 }  // namespace krepl::voronoi

@@ -78,4 +78,28 @@ SiteBoxes::SiteBoxes(const Instance& instance, const Context& context) {
   } while (count > 1);
 }
 
+void SiteBoxes::find_start(const Box& window, Memory& m) const {
+  constexpr std::size_t most = 24;
+  // Windows of neighbouring faces differ a little; one that is much smaller deserves an area of its own.
+  const bool ample = m.area_.half.x > 8 * window.half.x && m.area_.half.y > 8 * window.half.y && m.level_ > 1;
+  if (within(window, m.area_) && !ample) return;
+  m.area_ = {window.centre, {2 * window.half.x, 2 * window.half.y}};
+  m.level_ = std::uint32_t(levels_.size() - 1);
+  m.start_.clear();
+  for (unsigned bits = levels_.back()[0].meeting(m.area_); bits != 0; bits &= bits - 1) {
+    m.start_.push_back(std::uint32_t(std::countr_zero(bits)));
+  }
+  while (m.level_ > 1) {
+    m.below_.clear();
+    for (const std::uint32_t i : m.start_) {
+      for (unsigned bits = levels_[m.level_ - 1][i].meeting(m.area_); bits != 0; bits &= bits - 1) {
+        m.below_.push_back(i * arity + std::uint32_t(std::countr_zero(bits)));
+      }
+    }
+    if (m.below_.size() > most) break;
+    m.start_.swap(m.below_);
+    --m.level_;
+  }
+}
+
 }  // namespace krepl::voronoi

@@ -21,13 +21,21 @@ class SiteBoxes {
 
   SiteBoxes(const Instance& instance, const Context& context);
 
-  /// Memory that searches reuse.
-  using Heap = std::vector<std::uint64_t>;
+  /// What a search reuses of the one before: a few boxes of the tree that hold all sites of an area, so that it need not start at
+  /// the root; and memory.
+  class Memory {
+   private:
+    friend class SiteBoxes;
+    Box area_{{0, 0}, {-1, -1}};
+    std::uint32_t level_ = 0;
+    std::vector<std::uint32_t> start_, below_;
+    std::vector<std::uint64_t> heap_;
+  };
 
   /// Calls visit(site) for every site whose box, and the boxes above it, meet window() and pass meets(box), nearest to `from`
-  /// first. Both may become narrower meanwhile.
+  /// first. Both may become narrower meanwhile, which visit() tells by returning true.
   template <class Window, class Meets, class Visit>
-  void search(Vector<double> from, Heap& heap, Window&& window, Meets&& meets, Visit&& visit) const;
+  void search(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const;
 
  private:
   static constexpr int arity = 8;
@@ -40,6 +48,14 @@ class SiteBoxes {
   static std::uint64_t entry(float distance, std::uint32_t level, std::uint32_t index) {
     return std::uint64_t{std::bit_cast<std::uint32_t>(distance)} << 32 | level << index_bits | index;
   }
+  static bool meeting(const Box& a, const Box& b) {
+    return std::abs(a.centre.x - b.centre.x) <= a.half.x + b.half.x && std::abs(a.centre.y - b.centre.y) <= a.half.y + b.half.y;
+  }
+  static bool within(const Box& a, const Box& b) {
+    return std::abs(a.centre.x - b.centre.x) + a.half.x <= b.half.x && std::abs(a.centre.y - b.centre.y) + a.half.y <= b.half.y;
+  }
+  /// Makes memory.start_ hold all sites of the window.
+  void find_start(const Box& window, Memory& memory) const;
   Box box(std::uint32_t level, std::uint32_t index) const {
     const Node& n = levels_[level][index / arity];
     const unsigned k = index % arity;
@@ -51,30 +67,34 @@ class SiteBoxes {
 };
 
 template <class Window, class Meets, class Visit>
-void SiteBoxes::search(Vector<double> from, Heap& heap, Window&& window, Meets&& meets, Visit&& visit) const {
+void SiteBoxes::search(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const {
+  std::vector<std::uint64_t>& heap = memory.heap_;
   heap.clear();
-  const auto open = [&](std::uint32_t level, std::uint32_t node) {
-    for (unsigned bits = levels_[level][node].meeting(window()); bits != 0; bits &= bits - 1) {
-      const std::uint32_t i = node * arity + std::uint32_t(std::countr_zero(bits));
-      const Box b = box(level, i);
-      if (!meets(b)) continue;
-      const double dx = std::max(std::abs(b.centre.x - from.x) - b.half.x, 0.0);
-      const double dy = std::max(std::abs(b.centre.y - from.y) - b.half.y, 0.0);
-      heap.push_back(entry(float(dx * dx + dy * dy), level, i));
-      std::push_heap(heap.begin(), heap.end(), std::greater<>{});
-    }
+  const auto consider = [&](std::uint32_t level, std::uint32_t i) {
+    const Box b = box(level, i);
+    if (!meets(b)) return;
+    const double dx = std::max(std::abs(b.centre.x - from.x) - b.half.x, 0.0);
+    const double dy = std::max(std::abs(b.centre.y - from.y) - b.half.y, 0.0);
+    heap.push_back(entry(float(dx * dx + dy * dy), level, i));
+    std::push_heap(heap.begin(), heap.end(), std::greater<>{});
   };
-  open(std::uint32_t(levels_.size() - 1), 0);
+  find_start(window(), memory);
+  for (const std::uint32_t i : memory.start_) {
+    if (meeting(box(memory.level_, i), window())) consider(memory.level_, i);
+  }
+  bool narrower = false;
   while (!heap.empty()) {
     std::pop_heap(heap.begin(), heap.end(), std::greater<>{});
     const std::uint64_t e = heap.back();
     heap.pop_back();
     const std::uint32_t level = std::uint32_t(e) >> index_bits, index = std::uint32_t(e) & ((1u << index_bits) - 1);
-    if (!meets(box(level, index))) continue;  // what was found meanwhile may rule it out
+    if (narrower && !meets(box(level, index))) continue;  // what was found meanwhile may rule it out
     if (level == 0) {
-      visit(index);
-    } else {
-      open(level - 1, index);
+      narrower = visit(index) || narrower;
+      continue;
+    }
+    for (unsigned bits = levels_[level - 1][index].meeting(window()); bits != 0; bits &= bits - 1) {
+      consider(level - 1, index * arity + std::uint32_t(std::countr_zero(bits)));
     }
   }
 }
