@@ -12,27 +12,37 @@ constexpr int most_rounds = 64;
 
 bool has_face(const Instance& in, Index element) { return in.is_side(element) || in.sector(in.vertex_of(element)).before != none; }
 
-/// Faces in double precision, side by side. Faces that are certainly wrong are marked.
-bool build_faces(const Sites& sites, const SiteBoxes& boxes, const Context& context, Borders& borders, std::vector<char>& again,
-                 DiagramCounters& counters) {
+/// Neighbours of a vertex's face that the faces of the sides beside it know already: those next to the common borders.
+void find_hints(const Borders& borders, const Instance& in, Index element, std::vector<Index>& hints) {
+  hints.clear();
+  const auto sector = in.sector(in.vertex_of(element));
+  if (sector.before == element) return;
+  const auto before = borders.border(sector.before), after = borders.border(sector.after);
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (before.size() > i && before[before.size() - 1 - i].label != none) hints.push_back(before[before.size() - 1 - i].label);
+    if (after.size() > i && after[i].label != none) hints.push_back(after[i].label);
+  }
+}
+
+/// Faces of some elements in double precision. Faces that are certainly wrong are marked.
+bool build_faces(const Sites& sites, const SiteBoxes& boxes, Index first, Index last, const Context& context,
+                 kernel::Progress& progress, Borders& borders, std::vector<char>& again, DiagramCounters& counters) {
   const Instance& in = sites.instance();
-  const std::size_t n = in.element_count();
   struct Part {
     std::vector<Link> links;
     FaceCounters counters;
     std::uint64_t faces = 0;
   };
-  std::vector<Part> parts((n + block - 1) / block);
-  again.assign(n, 0);
-  borders.count.assign(n, 0);
-  kernel::Progress progress(context, n);
-  const bool done = kernel::parallel_blocks(context, n, block, [&](std::size_t from, std::size_t to) {
+  std::vector<Part> parts((last - first + block - 1) / block);
+  const bool done = kernel::parallel_blocks(context, last - first, block, [&](std::size_t from, std::size_t to) {
     Part& part = parts[from / block];
     FaceBuilder builder(sites, boxes);
-    for (Index e = Index(from); e < to && !context.cancelled(); ++e) {
+    std::vector<Index> hints;
+    for (Index e = first + Index(from); e < first + to && !context.cancelled(); ++e) {
       if (!has_face(in, e)) continue;
       const std::size_t start = part.links.size();
-      again[e] = !builder.build(e, part.links);
+      if (!in.is_side(e)) find_hints(borders, in, e, hints);
+      again[e] = !builder.build(e, hints, part.links);
       borders.count[e] = Index(part.links.size() - start);
       ++part.faces;
     }
@@ -40,9 +50,8 @@ bool build_faces(const Sites& sites, const SiteBoxes& boxes, const Context& cont
     progress.add(to - from);
   });
   if (!done || context.cancelled()) return false;
-  borders.first.resize(n);
-  Index total = 0;
-  for (std::size_t e = 0; e < n; ++e) borders.first[e] = total, total += borders.count[e];
+  Index total = Index(borders.links.size());
+  for (Index e = first; e < last; ++e) borders.first[e] = total, total += borders.count[e];
   kernel::reserve_pages(context, borders.links, total);
   for (Part& part : parts) {
     borders.links.insert(borders.links.end(), part.links.begin(), part.links.end());
@@ -230,7 +239,15 @@ Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, const 
   Borders borders(sites.instance());
   DiagramCounters counters;
   std::vector<char> again;
-  if (!build_faces(sites, boxes, context, borders, again, counters)) return cancelled;
+  const Index n = sites.instance().element_count(), sides = sites.instance().side_count();
+  again.assign(n, 0);
+  borders.first.assign(n, 0);
+  borders.count.assign(n, 0);
+  kernel::Progress progress(context, n);
+  if (!build_faces(sites, boxes, 0, sides, context, progress, borders, again, counters) ||
+      !build_faces(sites, boxes, sides, n, context, progress, borders, again, counters)) {
+    return cancelled;
+  }
   if (Status agreed = Settling(sites, boxes, context, borders, again, counters).run(); !agreed) return agreed.error();
   Diagram d = lay_out(borders, context);
   d.counters = counters;

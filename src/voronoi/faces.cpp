@@ -6,7 +6,7 @@
 namespace krepl::voronoi {
 namespace {
 
-constexpr Index neighbours = 2;  // along the Hilbert curve, on each side: where the search starts
+constexpr Index neighbours = 8;  // along the Hilbert curve, on each side: where the search starts
 
 Point sum(Point base, Vector<double> offset) { return {base.x + offset.x, base.y + offset.y}; }
 
@@ -33,58 +33,77 @@ Real lowest(const VertexCurve<Real>& curve, Real begin, Real end) {
 }  // namespace
 
 template <class Cell>
-void FaceBuilder::gather(Cell& cell, Index around, std::vector<Index>& recent, Vector<double> base, Vector<double> from) {
+void FaceBuilder::gather(Cell& cell, Index around, Vector<double> base, Vector<double> from) {
   const Index sites = sites_.instance().site_count();
   candidates_.clear();
   reach_.update(cell, cell, base);
   const auto take = [&](Index site) {
     candidates_.push_back(site);
     ++counters.candidates;
-    const bool changed = cell.add_site(site);
-    if (changed) reach_.update(cell, cell, base);
-    return changed;
+    if (cell.add_site(site)) reach_.update(cell, cell, base);
   };
-  const Index first = around > neighbours ? around - neighbours : 0, last = std::min(around + neighbours + 1, sites);
-  for (Index site = first; site < last; ++site) take(site);
-  for (const Index site : recent) {
-    if (site < first || site >= last) take(site);
+  // Hints first, then what lies near along the Hilbert curve, if it may still matter.
+  seeds_.push_back(around);
+  for (Index k = 1; k <= neighbours; ++k) {
+    if (around + k < sites) seeds_.push_back(around + k);
+    if (around >= k) seeds_.push_back(around - k);
+  }
+  for (std::size_t i = 0; i < seeds_.size(); ++i) {
+    const auto here = seeds_.begin() + std::ptrdiff_t(i);
+    if (std::find(seeds_.begin(), here, *here) == here && reach_.meets(site_box(*here))) take(*here);
   }
   const std::size_t seeds = candidates_.size();
-  boxes_.search(
-      from, memory_, [&]() -> const SiteBoxes::Box& { return reach_.window(); },
-      [&](const SiteBoxes::Box& box) { return reach_.meets(box); },
-      [&](Index site) {
-        const auto end = candidates_.begin() + std::ptrdiff_t(seeds);
-        return std::find(candidates_.begin(), end, site) == end && take(site);
-      });
-}
-
-namespace {
-
-/// The sites of a face's neighbours: the next face of the same kind probably has the same ones.
-template <class Arcs>
-void remember(const Sites& sites, const Arcs& arcs, std::vector<Index>& recent) {
-  constexpr std::size_t most = 12;
-  for (const auto& arc : arcs) {
-    const Index label = arc.curve.label;
-    if (label == none || recent.size() >= most) continue;
-    const Index site = sites.is_side(label) ? label >> 1 : sites.owner(sites.instance().vertex_of(label));
-    if (std::find(recent.begin(), recent.end(), site) == recent.end()) recent.push_back(site);
+  const auto window = [&]() -> const SiteBoxes::Box& { return reach_.window(); };
+  const auto meets = [&](const SiteBoxes::Box& box) { return reach_.meets(box); };
+  const auto visit = [&](Index site) {
+    const auto end = candidates_.begin() + std::ptrdiff_t(seeds);
+    if (std::find(candidates_.begin(), end, site) == end) take(site);
+  };
+  if (reach_.is_open()) {
+    boxes_.search_nearest(from, memory_, window, meets, visit);
+  } else {
+    boxes_.search_near(memory_, window, meets, visit);
   }
 }
 
-}  // namespace
+SiteBoxes::Box FaceBuilder::site_box(Index site) const {
+  const auto s = sites_.instance().site(site);
+  const Point a = sites_.instance().vertices()[s.a], b = sites_.instance().vertices()[s.b];
+  return {{(a.x + b.x) / 2, (a.y + b.y) / 2}, {std::abs(a.x - b.x) / 2, std::abs(a.y - b.y) / 2}};
+}
 
-bool FaceBuilder::find_candidates(Index element) {
+Index FaceBuilder::site_of(Index label) const {
+  return sites_.is_side(label) ? label >> 1 : sites_.owner(sites_.instance().vertex_of(label));
+}
+
+/// The next side that looks the same way probably has the same neighbours.
+void FaceBuilder::remember(Index element) {
+  constexpr std::size_t most = 12;
+  Recent& r = recent_[1];
+  std::swap(recent_[0], r);
+  r.normal = sites_.normal<double>(element);
+  r.sites.clear();
+  for (const auto& arc : side_.arcs()) {
+    const Index label = arc.curve.label;
+    if (label == none || r.sites.size() >= most) continue;
+    const Index site = site_of(label);
+    if (std::find(r.sites.begin(), r.sites.end(), site) == r.sites.end()) r.sites.push_back(site);
+  }
+}
+
+bool FaceBuilder::find_candidates(Index element, std::span<const Index> hints) {
   const Instance& in = sites_.instance();
-  auto& recent = recent_[in.is_side(element) ? element & 1u : 2u];
+  seeds_.clear();
+  for (const Index label : hints) seeds_.push_back(site_of(label));
   if (in.is_side(element)) {
     side_.start(element);
+    const Vector<double> n = sites_.normal<double>(element);
+    const Recent& r = recent_[dot(n, recent_[0].normal) > dot(n, recent_[1].normal) ? 0 : 1];
+    seeds_.insert(seeds_.end(), r.sites.begin(), r.sites.end());
     const auto e = in.ends(element);
     const Point p = in.vertices()[e.from], q = in.vertices()[e.to];
-    gather(side_, element >> 1, recent, {p.x, p.y}, {(p.x + q.x) / 2, (p.y + q.y) / 2});
-    recent.clear();
-    remember(sites_, side_.arcs(), recent);
+    gather(side_, element >> 1, {p.x, p.y}, {(p.x + q.x) / 2, (p.y + q.y) / 2});
+    remember(element);
     return true;
   }
   const Index v = in.vertex_of(element);
@@ -94,14 +113,12 @@ bool FaceBuilder::find_candidates(Index element) {
     reach_.update(vertex_, vertex_, {p.x, p.y});
     return false;
   }
-  gather(vertex_, sites_.owner(v), recent, {p.x, p.y}, {p.x, p.y});
-  recent.clear();
-  for (int i = 0; i < vertex_.chart_count(); ++i) remember(sites_, vertex_.chart(i).envelope.arcs(), recent);
+  gather(vertex_, sites_.owner(v), {p.x, p.y}, {p.x, p.y});
   return true;
 }
 
-bool FaceBuilder::build(Index element, std::vector<Link>& out) {
-  if (!find_candidates(element)) return false;
+bool FaceBuilder::build(Index element, std::span<const Index> hints, std::vector<Link>& out) {
+  if (!find_candidates(element, hints)) return false;
   return sites_.is_side(element) ? write(side_, out) : write(vertex_, out);
 }
 
@@ -109,30 +126,24 @@ bool FaceBuilder::build(Index element, std::vector<Link>& out) {
 /// come near the face in quadruple precision.
 template <class Cell, class Precise>
 void FaceBuilder::gather_precisely(const Cell& cell, Precise& precise, Vector<double> base) {
-  const Instance& in = sites_.instance();
   near_.clear();
   for (const Index site : candidates_) {
-    const auto s = in.site(site);
-    const Point a = in.vertices()[s.a], b = in.vertices()[s.b];
-    const SiteBoxes::Box box{{(a.x + b.x) / 2, (a.y + b.y) / 2}, {std::abs(a.x - b.x) / 2, std::abs(a.y - b.y) / 2}};
-    if (!reach_.meets(box)) continue;
+    if (!reach_.meets(site_box(site))) continue;
     near_.push_back(site);
     precise.add_site(site);
   }
   std::sort(near_.begin(), near_.end());
   reach_.update(precise, cell, base);
-  boxes_.search(
+  boxes_.search_nearest(
       base, memory_, [&]() -> const SiteBoxes::Box& { return reach_.window(); },
       [&](const SiteBoxes::Box& box) { return reach_.meets(box); },
       [&](Index site) {
-        if (std::binary_search(near_.begin(), near_.end(), site) || !precise.add_site(site)) return false;
-        reach_.update(precise, cell, base);
-        return true;
+        if (!std::binary_search(near_.begin(), near_.end(), site) && precise.add_site(site)) reach_.update(precise, cell, base);
       });
 }
 
 void FaceBuilder::build_precisely(Index element, std::vector<Link>& out) {
-  find_candidates(element);
+  find_candidates(element, {});
   const Instance& in = sites_.instance();
   const Point base = in.vertices()[in.is_side(element) ? in.ends(element).from : in.vertex_of(element)];
   if (in.is_side(element)) {

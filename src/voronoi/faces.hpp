@@ -29,8 +29,9 @@ class FaceBuilder {
       : sites_(sites), boxes_(boxes), side_(sites), vertex_(sites), precise_side_(sites), precise_vertex_(sites),
         reach_(0x1p-45 * sites.instance().extent()) {}
 
-  /// Appends the face of an element in double precision. Returns false if it is certainly wrong: take build_precisely.
-  bool build(Index element, std::vector<Link>& out);
+  /// Appends the face of an element in double precision. Returns false if it is certainly wrong: take build_precisely. `hints`:
+  /// likely neighbours. Sides should come in order.
+  bool build(Index element, std::span<const Index> hints, std::vector<Link>& out);
   /// The same in quadruple precision of the moved vertices, among the sites that come near in double precision.
   void build_precisely(Index element, std::vector<Link>& out);
 
@@ -38,10 +39,13 @@ class FaceBuilder {
 
  private:
   template <class Cell>
-  void gather(Cell& cell, Index around, std::vector<Index>& recent, Vector<double> base, Vector<double> from);
+  void gather(Cell& cell, Index around, Vector<double> base, Vector<double> from);
   template <class Cell, class Precise>
   void gather_precisely(const Cell& cell, Precise& precise, Vector<double> base);
-  bool find_candidates(Index element);
+  bool find_candidates(Index element, std::span<const Index> hints);
+  SiteBoxes::Box site_box(Index site) const;
+  Index site_of(Index label) const;
+  void remember(Index element);
   template <class Real>
   bool write(const SideCell<Real>& cell, std::vector<Link>& out) const;
   template <class Real>
@@ -55,8 +59,12 @@ class FaceBuilder {
   VertexCell<quad> precise_vertex_;
   Reach reach_;
   SiteBoxes::Memory memory_;
-  std::vector<Index> candidates_, near_;
-  std::vector<Index> recent_[3];  // sites around the last face: of either side, of a vertex
+  std::vector<Index> candidates_, near_, seeds_;
+  struct Recent {
+    Vector<double> normal{};
+    std::vector<Index> sites;
+  };
+  Recent recent_[2];  // around the last two sides
 };
 
 }  // namespace krepl::voronoi

@@ -6,6 +6,7 @@ namespace krepl::voronoi {
 
 void Reach::start(Vector<double> base) {
   base_ = base;
+  open_ = false;
   disks_.clear();
   strips_.clear();
   sectors_.clear();
@@ -46,6 +47,7 @@ void Reach::update(const SideCell<Real>& cell, const SideCell<double>& frame, Ve
     const double begin = double(arc.begin), end = double(arc.end);
     const double first = double(arc.curve.height(arc.begin)), last = double(arc.curve.height(arc.end));
     const double height = std::max(first, last), joint = std::max(before, first);
+    open_ = open_ || arc.curve.label == none;
     if (i == 0) start_touch = frame.plane({begin, 0});
     const Vector<double> end_touch = frame.plane({end, 0});
     add_disk(start_touch + joint * outwards, joint);
@@ -77,6 +79,7 @@ void Reach::update(const VertexCell<Real>& cell, const VertexCell<double>& frame
       add_disk(joint * b, joint);
       if (arc.curve.label == none) {
         sectors_.push_back({b, e});
+        open_ = true;
         widen({0, 0}, 2 * first);
       } else if (arc.curve.is_line) {
         const Vector<double> v{double(arc.curve.normal.x), double(arc.curve.normal.y)};

@@ -23,6 +23,8 @@ class Reach {
   void update(const VertexCell<Real>& cell, const VertexCell<double>& frame, Vector<double> base);
 
   bool meets(const SiteBoxes::Box& box) const;
+  /// True if the face still reaches the horizon.
+  bool is_open() const { return open_; }
   /// A box around all empty disks.
   const SiteBoxes::Box& window() const { return window_; }
 
@@ -50,6 +52,7 @@ class Reach {
   void close();
 
   double slack_;
+  bool open_ = false;
   Vector<double> base_{};
   std::vector<Disk> disks_;
   std::vector<Strip> strips_;

@@ -32,10 +32,13 @@ class SiteBoxes {
     std::vector<std::uint64_t> heap_;
   };
 
-  /// Calls visit(site) for every site whose box, and the boxes above it, meet window() and pass meets(box), nearest to `from`
-  /// first. Both may become narrower meanwhile, which visit() tells by returning true.
+  /// Calls visit(site) for every site whose box, and the boxes above it, meet window() and pass meets(box). Both may become
+  /// narrower meanwhile. Nearest to `from` first: where little is known yet.
   template <class Window, class Meets, class Visit>
-  void search(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const;
+  void search_nearest(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const;
+  /// The same in the order of the tree: where what is found will hardly make the window narrower.
+  template <class Window, class Meets, class Visit>
+  void search_near(Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const;
 
  private:
   static constexpr int arity = 8;
@@ -67,7 +70,7 @@ class SiteBoxes {
 };
 
 template <class Window, class Meets, class Visit>
-void SiteBoxes::search(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const {
+void SiteBoxes::search_nearest(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const {
   std::vector<std::uint64_t>& heap = memory.heap_;
   heap.clear();
   const auto consider = [&](std::uint32_t level, std::uint32_t i) {
@@ -78,23 +81,47 @@ void SiteBoxes::search(Vector<double> from, Memory& memory, Window&& window, Mee
     heap.push_back(entry(float(dx * dx + dy * dy), level, i));
     std::push_heap(heap.begin(), heap.end(), std::greater<>{});
   };
-  find_start(window(), memory);
-  for (const std::uint32_t i : memory.start_) {
-    if (meeting(box(memory.level_, i), window())) consider(memory.level_, i);
-  }
-  bool narrower = false;
+  for (std::uint32_t i = 0; i < arity; ++i) consider(std::uint32_t(levels_.size() - 1), i);
   while (!heap.empty()) {
     std::pop_heap(heap.begin(), heap.end(), std::greater<>{});
     const std::uint64_t e = heap.back();
     heap.pop_back();
     const std::uint32_t level = std::uint32_t(e) >> index_bits, index = std::uint32_t(e) & ((1u << index_bits) - 1);
-    if (narrower && !meets(box(level, index))) continue;  // what was found meanwhile may rule it out
+    if (!meets(box(level, index))) continue;  // what was found meanwhile may rule it out
     if (level == 0) {
-      narrower = visit(index) || narrower;
+      visit(index);
       continue;
     }
     for (unsigned bits = levels_[level - 1][index].meeting(window()); bits != 0; bits &= bits - 1) {
       consider(level - 1, index * arity + std::uint32_t(std::countr_zero(bits)));
+    }
+  }
+}
+
+template <class Window, class Meets, class Visit>
+void SiteBoxes::search_near(Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const {
+  find_start(window(), memory);
+  std::vector<std::uint64_t>& stack = memory.heap_;
+  stack.clear();
+  for (const std::uint32_t i : memory.start_) {
+    if (!meeting(box(memory.level_, i), window()) || !meets(box(memory.level_, i))) continue;
+    if (memory.level_ == 0) {
+      visit(i);
+    } else {
+      stack.push_back(entry(0, memory.level_, i));
+    }
+  }
+  while (!stack.empty()) {
+    const std::uint32_t e = std::uint32_t(stack.back()), level = (e >> index_bits) - 1, node = e & ((1u << index_bits) - 1);
+    stack.pop_back();
+    for (unsigned bits = levels_[level][node].meeting(window()); bits != 0; bits &= bits - 1) {
+      const std::uint32_t i = node * arity + std::uint32_t(std::countr_zero(bits));
+      if (!meets(box(level, i))) continue;
+      if (level == 0) {
+        visit(i);
+      } else {
+        stack.push_back(entry(0, level, i));
+      }
     }
   }
 }
