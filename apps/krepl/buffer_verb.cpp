@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "input/network_reader.hpp"
+#include "krepl/voronoi.hpp"
 #include "krepl/zone.hpp"
 #include "output/zone_file.hpp"
 #include "output_target.hpp"
@@ -22,15 +24,23 @@ struct BufferOptions {
 /// What the options mean once they are checked; made before anything is read.
 struct BufferPlan {
   std::vector<double> radii;
+  std::string engine;
   output::ZoneFormat format;
   output::ZoneFileOptions file;
 };
 
 Status check_engine(const std::string& engine) {
-  if (engine == "auto" || engine == "intervals") return std::monostate{};
-  bool planned = engine == "voronoi" || engine == "sweep";
+  if (engine == "auto" || engine == "intervals" || engine == "voronoi") return std::monostate{};
+  bool planned = engine == "sweep";
   return Error{ErrorCode::usage, "engine '" + engine + (planned ? "' is not in this version" : "' is unknown"), "",
-               "give --engine auto or intervals"};
+               "give --engine auto, intervals or voronoi"};
+}
+
+/// A diagram costs about as much as a dozen zones without one (docs/voronoi.md, "Cost"); it ends at its horizon.
+bool wants_diagram(const std::string& engine, const std::vector<double>& radii, const Network& network) {
+  constexpr std::size_t many = 16;
+  if (engine != "auto") return engine == "voronoi";
+  return radii.size() >= many && *std::max_element(radii.begin(), radii.end()) < network.extent();
 }
 
 Result<BufferPlan> make_plan(const BufferOptions& options) {
@@ -39,6 +49,7 @@ Result<BufferPlan> make_plan(const BufferOptions& options) {
   Result<std::vector<double>> radii = parse_radii(options.radius);
   if (!radii) return radii.error();
   plan.radii = *radii;
+  plan.engine = options.engine;
   if (!options.max_error.empty()) {
     Result<double> max_error = parse_positive("--max-error", options.max_error);
     if (!max_error) return max_error.error();
@@ -65,11 +76,20 @@ void tell_counters(const Zone& zone, double seconds, Session& session) {
   const ZoneCounters& c = zone.counters();
   session.detail(fmt::format("zone       {:.3f} s: radius {}, {} pieces, {} rings ({} holes), {} polygons", seconds,
                              zone.radius(), zone.piece_count(), zone.ring_count(), zone.hole_count(), zone.polygon_count()));
+  if (c.elements == 0) return;
   session.detail(fmt::format("elements   {} examined, {} covered at once, {} cigars met", c.elements, c.covered_at_once,
                              c.candidates));
   session.detail(fmt::format("predicates {} decided in double precision, {} in quadruple, {} ties by perturbation",
                              c.elements_in_double, c.elements_in_quadruple, c.ties_by_perturbation));
   session.detail(fmt::format("resolution {} pieces collapsed, {} rings dropped", c.collapsed_pieces, c.dropped_rings));
+}
+
+void tell_diagram(const VoronoiDiagram& diagram, double seconds, Session& session) {
+  const VoronoiCounters& c = diagram.counters();
+  session.detail(fmt::format("diagram    {:.3f} s: {} faces, {} edges, {} vertices", seconds, c.faces, diagram.edge_count(),
+                             diagram.vertex_count()));
+  session.detail(fmt::format("faces      {} candidates, {} faces and {} vertices in quadruple precision, {} rounds", c.candidates,
+                             c.faces_in_quadruple, c.vertices_in_quadruple, c.rounds));
 }
 
 std::string summary_line(const Network& network, const std::vector<Zone>& zones, double seconds) {
@@ -83,7 +103,21 @@ std::string summary_line(const Network& network, const std::vector<Zone>& zones,
   return text + fmt::format("; {:.3f} s", seconds);
 }
 
+Result<std::vector<Zone>> zones_from_diagram(const input::NetworkData& data, const BufferPlan& plan, Session& session) {
+  Stopwatch watch;
+  const Result<VoronoiDiagram> diagram = VoronoiDiagram::build(data.network, session.context("diagram"));
+  if (!diagram) return diagram.error();
+  tell_diagram(*diagram, watch.seconds(), session);
+  Stopwatch extracting;
+  Result<std::vector<Zone>> zones = diagram->zones(plan.radii, session.context("computing"));
+  if (!zones) return zones.error();
+  const double each = extracting.seconds() / double(zones->size());
+  for (const Zone& zone : *zones) tell_counters(zone, each, session);
+  return zones;
+}
+
 Result<std::vector<Zone>> compute_zones(const input::NetworkData& data, const BufferPlan& plan, Session& session) {
+  if (wants_diagram(plan.engine, plan.radii, *data.network)) return zones_from_diagram(data, plan, session);
   std::vector<Zone> zones;
   for (double radius : plan.radii) {
     Stopwatch watch;
@@ -138,7 +172,7 @@ void add_buffer_verb(CLI::App& program, Session& session) {
   verb->add_option("OUT", options->output,
                    "Result: .gpkg .fgb .wkt .wkb (curves), .svg .dxf (arcs), .geojson .shp ... (chords), or -")
       ->required();
-  verb->add_option("--radius", options->radius, "Radius of the disk, in the unit of the coordinates; several give nested zones")
+  verb->add_option("--radius", options->radius, "Radius of the disk, in the unit of the coordinates; several, or FIRST:LAST:STEP, give nested zones")
       ->required()->type_name("R[,R2,...]");
   verb->add_option("--layer", options->input.layer, "Layer to read")->type_name("NAME");
   verb->add_option("--where", options->input.where, "Features to read, as SQL: \"class = 'river'\"")->type_name("CONDITION");
@@ -151,7 +185,7 @@ void add_buffer_verb(CLI::App& program, Session& session) {
       ->type_name("LENGTH");
   verb->add_flag("--separate", options->separate, "A feature for each polygon, not for each radius");
   verb->add_flag("--no-pieces", options->no_pieces, "GeoPackage: no layer of boundary pieces with their origin");
-  verb->add_option("--engine", options->engine, "Algorithm: auto, intervals")->type_name("NAME");
+  verb->add_option("--engine", options->engine, "Algorithm: auto, intervals, voronoi")->type_name("NAME");
   session.add_common_options(*verb);
   session.on_run(*verb, [options, &session] { return run_buffer(*options, session); });
 }

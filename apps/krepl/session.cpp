@@ -105,14 +105,43 @@ Result<double> parse_positive(std::string_view option, std::string_view text) {
 
 Result<double> parse_radius(std::string_view text) { return parse_positive("--radius", text); }
 
+namespace {
+
+/// FIRST:LAST:STEP, both ends included.
+Status add_range(std::string_view text, std::vector<double>& radii) {
+  const std::size_t one = text.find(':'), two = text.find(':', one + 1);
+  const auto usage = [&](std::string_view what, std::string_view remedy) {
+    return Error{ErrorCode::usage, fmt::format("--radius '{}' {}", text, what), "", std::string(remedy)};
+  };
+  if (two == text.npos || text.find(':', two + 1) != text.npos) return usage("is not a range", "write FIRST:LAST:STEP, as 10:1000:10");
+  const Result<double> first = parse_radius(text.substr(0, one)), last = parse_radius(text.substr(one + 1, two - one - 1)),
+                       step = parse_radius(text.substr(two + 1));
+  for (const Result<double>* value : {&first, &last, &step}) {
+    if (!*value) return value->error();
+  }
+  if (*last < *first) return usage("ends before it begins", "write FIRST:LAST:STEP, as 10:1000:10");
+  constexpr double most = 100000;
+  const double count = std::floor((*last - *first) / *step * (1 + 1e-12) + 1e-9) + 1;
+  if (!(count <= most)) return usage("is more than 100000 radii", "take a larger step");
+  for (double i = 0; i < count; ++i) radii.push_back(std::min(*first + i * *step, *last));
+  return std::monostate{};
+}
+
+}  // namespace
+
 Result<std::vector<double>> parse_radii(std::string_view text) {
   std::vector<double> radii;
   for (std::size_t begin = 0; begin <= text.size();) {
     std::size_t end = std::min(text.find(',', begin), text.size());
-    Result<double> radius = parse_radius(text.substr(begin, end - begin));
+    const std::string_view word = text.substr(begin, end - begin);
+    begin = end + 1;
+    if (word.find(':') != word.npos) {
+      if (Status range = add_range(word, radii); !range) return range.error();
+      continue;
+    }
+    Result<double> radius = parse_radius(word);
     if (!radius) return radius.error();
     radii.push_back(*radius);
-    begin = end + 1;
   }
   return radii;
 }

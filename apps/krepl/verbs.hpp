@@ -75,13 +75,15 @@ class Session {
 inline std::string input_name(const std::string& path) { return path == "-" ? "standard input" : path; }
 inline std::string output_name(const std::string& path) { return path == "-" ? "standard output" : path; }
 
-/// One or more radii separated by commas, each finite and positive; an Error of code usage names what is wrong.
+/// One or more radii separated by commas, each finite and positive, or ranges FIRST:LAST:STEP; an Error of code usage names what
+/// is wrong.
 Result<std::vector<double>> parse_radii(std::string_view text);
 /// Exactly one radius, finite and positive.
 Result<double> parse_radius(std::string_view text);
 /// A finite positive number for the option `option`, as `--max-error`.
 Result<double> parse_positive(std::string_view option, std::string_view text);
 
+void add_axis_verb(CLI::App& program, Session& session);
 void add_buffer_verb(CLI::App& program, Session& session);
 void add_height_verb(CLI::App& program, Session& session);
 void add_info_verb(CLI::App& program, Session& session);

@@ -45,8 +45,8 @@ class VoronoiDiagram {
   /// piece of a parabola (a side and another vertex). Coordinates are absolute.
   struct Edge {
     Site left, right;    ///< the sites whose faces lie on the left and on the right, from start to end
-    Point start, end;    ///< an unbounded edge's far end is a unit vector, the direction in which it runs away
-    double start_clearance, end_clearance;  ///< distance from the sites; infinite at an unbounded end
+    Point start, end;    ///< an unbounded edge ends at the horizon
+    double start_clearance, end_clearance;  ///< distance from the sites
     double minimum;      ///< least distance from the sites along the edge
     bool parabolic;
     /// True for a perpendicular between a side and its own end, which touches the network: part of the Voronoi diagram, not of
@@ -59,9 +59,13 @@ class VoronoiDiagram {
   /// certify.
   static Result<VoronoiDiagram> build(std::shared_ptr<const Network> network, const Context& context = {});
 
-  /// The zone of the network at one radius: the same rings as compute_zone gives. O(n), with a small constant where the radius is
-  /// far from the clearances; may be called from several threads. Errors as compute_zone.
+  /// The zone of the network at one radius: the same rings as compute_zone gives. O(n), with a small constant. Errors as
+  /// compute_zone; and ErrorCode::usage for a radius beyond horizon().
   Result<Zone> zone(const ZoneOptions& options, const Context& context = {}) const;
+  /// The zones at several radii, in the order given, side by side on all threads.
+  Result<std::vector<Zone>> zones(std::span<const double> radii, const Context& context = {}) const;
+  /// Faces are cut off at this distance from their site: 2^20 extents of the network (infinite if it has a single vertex).
+  double horizon() const;
 
   const Network& network() const;
   const VoronoiCounters& counters() const;
@@ -71,8 +75,9 @@ class VoronoiDiagram {
 
   /// All edges, each once, in a fixed order.
   std::vector<Edge> edges() const;
-  /// Points along an edge, ends included: chords of a parabola deviate from it by max_error at most. Unbounded edges are followed
-  /// up to max_clearance from their sites; an edge beyond it gives fewer than two points.
+  /// Points along an edge from start to end, ends included; chords deviate from a parabola by max_error at most, where coordinates
+  /// can hold that. Only what is no farther than max_clearance from the sites: none if that is nothing. Precondition: the edge
+  /// is one of edges(); max_error > 0; its clearance falls and rises again at most once, so one stretch at either end is left out.
   std::vector<Point> points(const Edge& edge, double max_error, double max_clearance) const;
 
   /// Links have twins between the same vertices, borders are closed, Euler's formula holds, clearances are those of both

@@ -1,7 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 
+#include "kernel/parallel.hpp"
 #include "krepl/voronoi.hpp"
+#include "voronoi/bisector.hpp"
 #include "voronoi/extract.hpp"
 #include "zone/assembly.hpp"
 #include "zone/precision.hpp"
@@ -44,9 +48,43 @@ Result<VoronoiDiagram> VoronoiDiagram::build(std::shared_ptr<const Network> netw
 Result<Zone> VoronoiDiagram::zone(const ZoneOptions& options, const Context& context) const {
   const auto precision = zone::precision_for(network(), options.radius);
   if (!precision) return precision.error();
+  if (options.radius >= horizon()) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", options.radius);
+    return Error{ErrorCode::usage, "the radius " + std::string(text) + " is beyond the horizon of the Voronoi diagram", "",
+                 "take the engine intervals"};
+  }
   const voronoi::Instance instance(parts_->instance, options.radius, precision->effective_radius, precision->resolution);
   return ZoneAssembly::finish(parts_->network, instance, voronoi::extract_rings(parts_->diagram, instance, context),
                               precision->resolution, {}, context);
+}
+
+Result<std::vector<Zone>> VoronoiDiagram::zones(std::span<const double> radii, const Context& context) const {
+  std::vector<std::optional<Result<Zone>>> found(radii.size());
+  kernel::Progress progress(context, radii.size());
+  Context alone;
+  alone.threads = 1;
+  alone.cancel = context.cancel;
+  // Few radii leave threads without work, so then they share each.
+  const bool few = radii.size() < 4;
+  Context outside = context;
+  if (few) outside.threads = 1, alone.threads = context.threads;
+  const bool done = kernel::parallel_blocks(outside, radii.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) found[i].emplace(zone({radii[i]}, alone));
+    progress.add(last - first);
+  });
+  if (!done || context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
+  std::vector<Zone> zones;
+  zones.reserve(radii.size());
+  for (auto& result : found) {
+    if (!*result) return result->error();
+    zones.push_back(std::move(**result));
+  }
+  return zones;
+}
+
+double VoronoiDiagram::horizon() const {
+  return network().extent() > 0 ? voronoi::horizon_in_extents * network().extent() : std::numeric_limits<double>::infinity();
 }
 
 const Network& VoronoiDiagram::network() const { return *parts_->network; }
@@ -82,6 +120,15 @@ std::vector<VoronoiDiagram::Edge> VoronoiDiagram::edges() const {
     }
   }
   return edges;
+}
+
+std::vector<Point> VoronoiDiagram::points(const Edge& edge, double max_error, double max_clearance) const {
+  const Point o = network().origin();
+  const auto local = [&](Point p) { return Point{p.x - o.x, p.y - o.y}; };
+  const voronoi::Bisector bisector(network(), edge, local(edge.start), local(edge.end));
+  std::vector<Point> points = bisector.points(max_error, max_clearance);
+  for (Point& p : points) p = {p.x + o.x, p.y + o.y};
+  return points;
 }
 
 std::optional<std::string> VoronoiDiagram::validate() const { return voronoi::validate(parts_->diagram, parts_->instance); }
