@@ -119,7 +119,8 @@ bool FaceBuilder::find_candidates(Index element, std::span<const Index> hints) {
 
 bool FaceBuilder::build(Index element, std::span<const Index> hints, std::vector<Link>& out) {
   if (!find_candidates(element, hints)) return false;
-  return sites_.is_side(element) ? write(side_, out) : write(vertex_, out);
+  if (sites_.is_side(element)) return write(side_, out) && !side_.is_uncertain();
+  return write(vertex_, out) && !vertex_.is_uncertain();
 }
 
 /// The candidates that still come near, then, as double precision may have taken a site for nearer than it is, all others that
@@ -225,6 +226,7 @@ bool FaceBuilder::write(const VertexCell<Real>& cell, std::vector<Link>& out) co
     out[first].minimum = std::min(out[first].minimum, out.back().minimum);
     out.pop_back();
   }
+  if (out.size() - first == 1 && out[first].label == none && cell.is_isolated()) out.pop_back();  // alone in the plane
   return true;
 }
 

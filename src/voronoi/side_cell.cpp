@@ -9,6 +9,7 @@ void SideCell<Real>::start(Index element) {
   const Vector<Real> d = sites_.direction<Real>(element >> 1);
   u_ = (element & 1u) ? Vector<Real>{-d.x, -d.y} : d;
   length_ = zone::length(sites_.instance().template difference<Real>(ends_.to, ends_.from));
+  uncertain_ = false;
   corner_[0] = corner_[1] = {};
   Curve horizon;
   horizon.is_line = true;
@@ -21,11 +22,22 @@ bool SideCell<Real>::add_site(Index site) {
   changed_ = false;
   const auto s = sites_.instance().site(site);
   if (s.a == s.b) {
+    look_at(locate(s.a));
     add_vertex(s.a, locate(s.a));
   } else if (!is_own(site)) {
     add_segment(site);
   }
   return changed_;
+}
+
+/// A point that rounding may have brought to the other side of the base matters where its bisector, at height x^2 / 2y over the base,
+/// stays below the horizon.
+template <class Real>
+void SideCell<Real>::look_at(Vector<Real> q) {
+  const Real error = narrow<Real> * (kernel::absolute(q.x) + length_);
+  if (!(kernel::absolute(q.y) <= error)) return;
+  const Real x = std::max(std::max(-q.x, q.x - length_), Real(0));
+  if (x * x <= 2 * error * Real(sites_.horizon())) uncertain_ = true;
 }
 
 /// A vertex is nearest only within the sector that its segments leave open. A centre that runs along the parabola with
@@ -83,6 +95,8 @@ template <class Real>
 void SideCell<Real>::add_segment(Index segment) {
   const auto s = sites_.instance().site(segment);
   const Vector<Real> a = locate(s.a), b = locate(s.b);
+  if (s.a != ends_.from && s.a != ends_.to) look_at(a);
+  if (s.b != ends_.from && s.b != ends_.to) look_at(b);
   if (!(a.y > 0) && !(b.y > 0)) return;
   Vector<Real> d = rotate(sites_.direction<Real>(segment));
   Curve line;

@@ -6,6 +6,12 @@
 
 namespace krepl::voronoi {
 
+/// Relative distances below this are not told from zero.
+template <class Real>
+constexpr double narrow = 0x1p-48;
+template <>
+constexpr double narrow<quad> = 0x1p-108;
+
 /// 1 - n.y of a unit vector, without cancellation.
 template <class Real>
 Real one_minus_y(Vector<Real> n) {
@@ -124,6 +130,8 @@ class SideCell {
   Real length() const { return length_; }
   bool is_own(Index site) const { return site == element_ >> 1; }
   const std::vector<typename Envelope<Real, Curve>::Arc>& arcs() const { return envelope_.arcs(); }
+  /// True if double precision cannot tell on which side of the base a site lies that matters; neighbours might not notice.
+  bool is_uncertain() const { return uncertain_; }
   /// The other side at the concave corner at the start (0) or end (1): with it the border begins or ends, in the corner itself, even
   /// if that stretch is too short to be seen. None if there is no corner.
   Index corner(int end) const { return corner_[end].label; }
@@ -141,6 +149,7 @@ class SideCell {
     const Real r = q.y / one_minus_y(n);
     return {q.x + r * n.x, r};
   }
+  void look_at(Vector<Real> q);
   void add_vertex(Index vertex, Vector<Real> q);
   void add_segment(Index segment);
   void add_incident(Curve line, bool at_end, Vector<Real> other, Vector<Real> away, bool reversed);
@@ -151,7 +160,7 @@ class SideCell {
   Instance::Ends ends_{};
   Vector<Real> u_{};
   Real length_ = 0;
-  bool changed_ = false;
+  bool changed_ = false, uncertain_ = false;
   Curve corner_[2];
   Envelope<Real, Curve> envelope_;
 };

@@ -47,6 +47,7 @@ bool VertexCell<Real>::start(Index vertex) {
   vertex_ = vertex;
   sector_ = sites_.instance().sector(vertex);
   charts_ = 0;
+  uncertain_ = false;
   beside_[0] = beside_[1] = none;
   if (is_isolated()) {
     const Real h = kernel::square_root(Real(0.5));
@@ -124,7 +125,12 @@ void VertexCell<Real>::add_line(Index segment, Vector<Real> a, Vector<Real> b) {
   const Real to_a = dot(right, a), to_b = dot(right, b);
   const bool a_nearer = dot(a, a) < dot(b, b);
   const Real signed_distance = a_nearer ? to_a : to_b;
-  if (signed_distance == 0) return;  // told by quadruple precision
+  const Real nearest = std::min(dot(a, a), dot(b, b)), error = narrow<Real> * (zone::length(a) + zone::length(b));
+  if (kernel::absolute(signed_distance) <= error) {
+    const bool beside = dot(a, d) <= 0 && dot(b, d) >= 0;
+    if (beside || nearest <= 2 * error * Real(sites_.horizon())) uncertain_ = true;
+    if (signed_distance == 0) return;
+  }
   const bool on_right = signed_distance < 0;
   const Vector<Real> n = on_right ? right : Vector<Real>{-right.x, -right.y};
   // Seen from the vertex, the side's start is counter-clockwise of its end.

@@ -109,6 +109,8 @@ class VertexCell {
   bool add_site(Index site);
 
   Index vertex() const { return vertex_; }
+  /// True if double precision cannot tell on which side of a segment that matters the vertex lies; neighbours might not notice.
+  bool is_uncertain() const { return uncertain_; }
   bool is_isolated() const { return !sites_.is_side(sector_.before); }
   Instance::Sector sector() const { return sector_; }
   int chart_count() const { return charts_; }
@@ -128,7 +130,7 @@ class VertexCell {
   Index vertex_ = none;
   Instance::Sector sector_{};
   Index beside_[2] = {none, none};  // the other ends of the segments that bound the sector
-  bool changed_ = false;
+  bool changed_ = false, uncertain_ = false;
   int charts_ = 0;
   std::array<Chart, 4> chart_;
 };
