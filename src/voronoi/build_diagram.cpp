@@ -135,7 +135,7 @@ class Settling {
         precise_(borders.count.size(), 0) {}
 
   /// Brings all faces to agree. Faces done in quadruple precision are true ones of the moved instance, so they agree with each
-  /// other but for links too short even for that; what grows from round to round is only the rim where they meet faces in double
+  /// other but for links that are too short even for that; what grows from round to round is only the rim where they meet faces in double
   /// precision.
   Status run() {
     std::vector<Index> all(borders_.count.size());
@@ -149,7 +149,7 @@ class Settling {
       look_.assign(precise_.size(), 0);
       for (const Index e : stuck) look_[e] = 1;
       if (faces.empty()) {
-        if (!insert_missing(stuck)) return disagreement(sites_, stuck[0]);
+        if (!reconcile(stuck)) return disagreement(sites_, stuck[0]);
       } else {
         do_again(faces);
         if (context_.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
@@ -181,19 +181,25 @@ class Settling {
     build_again(sites_, boxes_, faces, context_, borders_);
     for (const Index e : faces) look_around(e), precise_[e] = 1;
   }
-  bool insert_missing(const std::vector<Index>& stuck) {
-    const double tolerance = 0x1p-48 * sites_.instance().extent();
+  /// Links far below the accuracy statement that only one of two faces sees are given to the other too, or taken from the one.
+  bool reconcile(const std::vector<Index>& stuck) {
+    const double tolerance = 0x1p-36 * sites_.instance().extent();
     bool any = false;
-    for (const Index face : stuck) {
-      for (Index k = 0; k < borders_.count[face]; ++k) {
-        const Index link = borders_.first[face] + k, other = borders_.links[link].label;
-        if (other == none || borders_.twin(face, link) != none || !borders_.insert_twin(face, link, tolerance)) continue;
-        ++counters_.links_inserted;
-        look_around(face), look_around(other);
-        any = true;
+    for (const bool insert : {true, false}) {
+      for (const Index face : stuck) {
+        for (Index k = 0; k < borders_.count[face]; ++k) {
+          const Index link = borders_.first[face] + k, other = borders_.links[link].label;
+          if (other == none || borders_.twin(face, link) != none) continue;
+          look_around(face);
+          if (insert ? !borders_.insert_twin(face, link, tolerance) : !borders_.remove_short(face, link, tolerance)) continue;
+          ++counters_.links_reconciled;
+          look_around(face), look_around(other);
+          any = true;
+        }
       }
+      if (any) return true;
     }
-    return any;
+    return false;
   }
 
   const Sites& sites_;

@@ -1,5 +1,6 @@
 #include "voronoi/glue.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace krepl::voronoi {
@@ -38,6 +39,24 @@ bool Borders::insert_twin(Index face, Index link, double tolerance) {
     return true;
   }
   return false;
+}
+
+bool Borders::remove_short(Index face, Index link, double tolerance) {
+  const Index begin = first[face], end = begin + count[face];
+  if (link == begin || link + 1 == end) return false;
+  const Point p = links[link - 1].end, q = links[link].end;
+  if (!(std::abs(p.x - q.x) <= tolerance && std::abs(p.y - q.y) <= tolerance)) return false;
+  std::vector<Link> kept(links.begin() + begin, links.begin() + link);
+  std::vector<Link> rest(links.begin() + link + 1, links.begin() + end);
+  if (kept.back().label == rest.front().label) {  // one link again
+    rest.front().minimum = std::min(rest.front().minimum, kept.back().minimum);
+    kept.pop_back();
+  }
+  first[face] = Index(links.size());
+  count[face] = Index(kept.size() + rest.size());
+  links.insert(links.end(), kept.begin(), kept.end());
+  links.insert(links.end(), rest.begin(), rest.end());
+  return true;
 }
 
 Index Borders::twin(Index face, Index link) const {

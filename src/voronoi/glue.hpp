@@ -22,6 +22,8 @@ class Borders {
   /// A link that the other face sees as well but that is too short for its own numbers: two links that it separates follow each other
   /// there, and end where this one lies. Puts it in between. Returns false if the other face does not look like that.
   bool insert_twin(Index face, Index link, double tolerance);
+  /// The reverse: leaves a link out that the other face does not see, if it is shorter than the tolerance.
+  bool remove_short(Index face, Index link, double tolerance);
   /// What stands before and after a link of a face; Diagram::base at the site itself and where segments cross.
   Index before(Index face, Index link) const;
   Index after(Index face, Index link) const;

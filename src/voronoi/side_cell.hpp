@@ -84,7 +84,8 @@ Stretches<Real> nearer_line(const SideCurve<Real>& b, const SideCurve<Real>& a) 
   const Real turn = b.slope - a.slope;
   int i = 0, k = 0;
   const Vector<Real> u = a.normal + b.normal;
-  if (turn != 0 && dot(u, u) > 3.99 && u.y < 1.9 && shared_end(a, b, i, k)) {
+  const bool at_corner = a.at.x == b.at.x && a.at.y == b.at.y;  // of the base: there the bisectors meet
+  if (turn != 0 && !at_corner && dot(u, u) > 3.99 && u.y < 1.9 && shared_end(a, b, i, k)) {
     // Their own bisector starts in the shared vertex along the sum of the normals: sharp even where they are nearly parallel.
     const Vector<Real> q = a.places[i];
     const Real x = q.x + u.x * q.y / (dot(u, u) / 2 - u.y);
@@ -92,7 +93,9 @@ Stretches<Real> nearer_line(const SideCurve<Real>& b, const SideCurve<Real>& a) 
   }
   const Real rise = a.at.y - b.at.y + a.slope * (b.at.x - a.at.x);  // a above b where b's place is
   if (turn == 0) return rise > 0 ? Stretches<Real>::all() : Stretches<Real>::nowhere();
-  const Real x = b.at.x + rise / turn;
+  // From the place on the steeper one, near which they meet.
+  const bool a_steeper = kernel::absolute(a.slope) > kernel::absolute(b.slope);
+  const Real x = a_steeper ? a.at.x + (a.at.y - b.at.y - b.slope * (a.at.x - b.at.x)) / turn : b.at.x + rise / turn;
   return turn > 0 ? Stretches<Real>::between(-infinite<Real>(), x) : Stretches<Real>::between(x, infinite<Real>());
 }
 
