@@ -80,8 +80,8 @@ class VoronoiDiagram {
   /// is one of edges(); max_error > 0; its clearance falls and rises again at most once, so one stretch at either end is left out.
   std::vector<Point> points(const Edge& edge, double max_error, double max_clearance) const;
 
-  /// Links have twins between the same vertices, borders are closed, Euler's formula holds, clearances are those of both
-  /// sites. Returns what is wrong and where, or nothing.
+  /// Edges are the same seen from both sides, borders of faces are closed, what has no neighbour lies at the horizon. Returns what
+  /// is wrong and where, or nothing.
   std::optional<std::string> validate() const;
 
  private:

@@ -71,7 +71,7 @@ void mark_disagreeing(const Borders& borders, const std::vector<Index>& faces, c
     for (std::size_t k = from; k < to; ++k) {
       const Index face = faces[k];
       for (Index i = borders.first[face]; i < borders.first[face] + borders.count[face]; ++i) {
-        if (borders.links[i].label == none || borders.twin(face, i) != none) continue;
+        if (borders.is_sound(face, i)) continue;
         for (const Index f : {face, borders.links[i].label, borders.before(face, i), borders.after(face, i)}) {
           if (f < Diagram::base) parts[from / block].push_back(f);
         }
@@ -181,25 +181,33 @@ class Settling {
     build_again(sites_, boxes_, faces, context_, borders_);
     for (const Index e : faces) look_around(e), precise_[e] = 1;
   }
-  /// Links far below the accuracy statement that only one of two faces sees are given to the other too, or taken from the one.
+  /// Links far below the accuracy statement that only one of two faces sees are given to the other too, or taken from the one: the
+  /// shortest first.
   bool reconcile(const std::vector<Index>& stuck) {
-    const double tolerance = 0x1p-36 * sites_.instance().extent();
-    bool any = false;
-    for (const bool insert : {true, false}) {
-      for (const Index face : stuck) {
-        for (Index k = 0; k < borders_.count[face]; ++k) {
-          const Index link = borders_.first[face] + k, other = borders_.links[link].label;
-          if (other == none || borders_.twin(face, link) != none) continue;
-          look_around(face);
-          if (insert ? !borders_.insert_twin(face, link, tolerance) : !borders_.remove_short(face, link, tolerance)) continue;
-          ++counters_.links_reconciled;
-          look_around(face), look_around(other);
-          any = true;
-        }
+    const double extent = sites_.instance().extent();
+    for (const double most : {0x1p-48, 0x1p-36}) {
+      if (reconcile(stuck, most * extent, true)) return true;
+      for (double size = 0x1p-96; size <= most; size *= 0x1p12) {
+        if (reconcile(stuck, size * extent, false)) return true;
       }
-      if (any) return true;
     }
     return false;
+  }
+  bool reconcile(const std::vector<Index>& stuck, double tolerance, bool insert) {
+    bool any = false;
+    for (const Index face : stuck) {
+      for (Index k = 0; k < borders_.count[face]; ++k) {
+        const Index link = borders_.first[face] + k, other = borders_.links[link].label;
+        if (borders_.is_sound(face, link)) continue;
+        look_around(face);
+        if (insert ? !borders_.insert_twin(face, link, tolerance) : !borders_.remove_short(face, link, tolerance)) continue;
+        ++counters_.links_reconciled;
+        look_around(face);
+        if (other != none) look_around(other);
+        any = true;
+      }
+    }
+    return any;
   }
 
   const Sites& sites_;
@@ -242,7 +250,7 @@ Diagram lay_out(const Borders& borders, const Context& context) {
 
 Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, const Context& context) {
   const Error cancelled{ErrorCode::cancelled, "cancelled", "", ""};
-  Borders borders(sites.instance());
+  Borders borders(sites);
   DiagramCounters counters;
   std::vector<char> again;
   const Index n = sites.instance().element_count(), sides = sites.instance().side_count();

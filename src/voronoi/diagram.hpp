@@ -40,7 +40,8 @@ struct Diagram {
 /// ErrorCode::computation names the place where neighbours still disagree.
 Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, const Context& context);
 
-/// Twins are mutual and bound by the same vertices, borders are closed, Euler's formula holds. Returns what is wrong, or nothing.
-std::optional<std::string> validate(const Diagram& diagram, const Instance& instance);
+/// Twins are mutual and bound by the same vertices, borders are closed, what has no neighbour lies at the horizon. Returns what is
+/// wrong, or nothing.
+std::optional<std::string> validate(const Diagram& diagram, double horizon);
 
 }  // namespace krepl::voronoi

@@ -22,7 +22,8 @@ class Tracer {
     for (const auto& part : parts) entries_.insert(entries_.end(), part.begin(), part.end());
   }
 
-  zone::Rings rings(const Context& context) {
+  Result<zone::Rings> rings(const Context& context) {
+    if (!is_sound()) return Error{ErrorCode::computation, "the Voronoi diagram is not sound at this radius", "", "please report this input"};
     zone::Rings rings;
     std::vector<char> done(entries_.size(), 0);
     std::vector<Index> from;  // per piece: the face it comes from
@@ -48,6 +49,16 @@ class Tracer {
   struct Entry {
     Index face, link, exit;  // link none: a full circle
   };
+
+  /// Every piece enters and leaves by a link that has a face behind it, where another piece continues.
+  bool is_sound() const {
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+      const Entry& e = entries_[k];
+      if (e.link == none) continue;
+      if (e.exit == none || d_.twin[e.link] == none || d_.twin[e.exit] == none || following(k) == entries_.size()) return false;
+    }
+    return true;
+  }
 
   double end_clearance(Index i) const { return d_.clearance[d_.vertex[i]]; }
   bool is_closed(Index f) const { return !in_.is_side(f) && in_.sector(in_.vertex_of(f)).before == f; }
@@ -92,7 +103,8 @@ class Tracer {
   std::size_t following(std::size_t k) const {
     const Index entered = d_.twin[entries_[k].exit], face = d_.label[entries_[k].exit];
     auto e = std::lower_bound(entries_.begin(), entries_.end(), face, [](const Entry& a, Index f) { return a.face < f; });
-    while (e->link != entered) ++e;
+    while (e != entries_.end() && e->face == face && e->link != entered) ++e;
+    if (e == entries_.end() || e->face != face) return entries_.size();
     return std::size_t(e - entries_.begin());
   }
 
@@ -104,7 +116,7 @@ class Tracer {
 
 }  // namespace
 
-zone::Rings extract_rings(const Diagram& diagram, const Instance& instance, const Context& context) {
+Result<zone::Rings> extract_rings(const Diagram& diagram, const Instance& instance, const Context& context) {
   Tracer tracer(diagram, instance);
   tracer.find_entries(context);
   return tracer.rings(context);

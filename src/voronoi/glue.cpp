@@ -45,7 +45,8 @@ bool Borders::remove_short(Index face, Index link, double tolerance) {
   const Index begin = first[face], end = begin + count[face];
   if (link == begin || link + 1 == end) return false;
   const Point p = links[link - 1].end, q = links[link].end;
-  if (!(std::abs(p.x - q.x) <= tolerance && std::abs(p.y - q.y) <= tolerance)) return false;
+  const double climb = std::abs(links[link - 1].clearance - links[link].clearance);
+  if (!(std::abs(p.x - q.x) <= tolerance && std::abs(p.y - q.y) <= tolerance && climb <= tolerance)) return false;
   std::vector<Link> kept(links.begin() + begin, links.begin() + link);
   std::vector<Link> rest(links.begin() + link + 1, links.begin() + end);
   if (kept.back().label == rest.front().label) {  // one link again

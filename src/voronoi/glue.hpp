@@ -10,7 +10,7 @@ namespace krepl::voronoi {
 /// The borders of all faces while they are brought to agree: a face that is done again moves to the end.
 class Borders {
  public:
-  explicit Borders(const Instance& instance) : in_(instance) {}
+  explicit Borders(const Sites& sites) : in_(sites.instance()), horizon_(sites.horizon()) {}
 
   std::vector<Link> links;
   std::vector<Index> first, count;  // per face
@@ -19,6 +19,10 @@ class Borders {
   /// The link of the other face that is the same stretch: between the same neighbours, in the opposite order. None if there is
   /// none, or if two would do.
   Index twin(Index face, Index link) const;
+  /// True if the link has its twin, or lies along the horizon and has no neighbour.
+  bool is_sound(Index face, Index link) const {
+    return links[link].label == none ? links[link].minimum > horizon_ / 2 : twin(face, link) != none;
+  }
   /// A link that the other face sees as well but that is too short for its own numbers: two links that it separates follow each other
   /// there, and end where this one lies. Puts it in between. Returns false if the other face does not look like that.
   bool insert_twin(Index face, Index link, double tolerance);
@@ -36,6 +40,7 @@ class Borders {
   }
 
   const Instance& in_;
+  double horizon_;
 };
 
 /// Gives every end of a link its vertex; links that end in the same vertex share it. Where the faces around a vertex do not agree

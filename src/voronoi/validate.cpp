@@ -7,7 +7,7 @@ namespace {
 
 class Check {
  public:
-  Check(const Diagram& d, const Instance& in) : d_(d), in_(in) {}
+  Check(const Diagram& d, double horizon) : d_(d), horizon_(horizon) {}
 
   std::optional<std::string> run() {
     for (Index f = 0; f < d_.face_count(); ++f) {
@@ -30,6 +30,7 @@ class Check {
     if (d_.vertex[i] >= d_.place.size()) return at(f, i, "a link without a vertex");
     if (other == none) {
       if (t != none) return at(f, i, "a twin where there is no neighbour");
+      if (!(d_.minimum[i] > horizon_ / 2)) return at(f, i, "a horizon that is too near");
       return std::nullopt;
     }
     if (other == f) return at(f, i, "a face that neighbours itself");
@@ -42,11 +43,11 @@ class Check {
   }
 
   const Diagram& d_;
-  const Instance& in_;
+  double horizon_;
 };
 
 }  // namespace
 
-std::optional<std::string> validate(const Diagram& diagram, const Instance& instance) { return Check(diagram, instance).run(); }
+std::optional<std::string> validate(const Diagram& diagram, double horizon) { return Check(diagram, horizon).run(); }
 
 }  // namespace krepl::voronoi

@@ -55,8 +55,9 @@ Result<Zone> VoronoiDiagram::zone(const ZoneOptions& options, const Context& con
                  "take the engine intervals"};
   }
   const voronoi::Instance instance(parts_->instance, options.radius, precision->effective_radius, precision->resolution);
-  return ZoneAssembly::finish(parts_->network, instance, voronoi::extract_rings(parts_->diagram, instance, context),
-                              precision->resolution, {}, context);
+  auto rings = voronoi::extract_rings(parts_->diagram, instance, context);
+  if (!rings) return rings.error();
+  return ZoneAssembly::finish(parts_->network, instance, std::move(*rings), precision->resolution, {}, context);
 }
 
 Result<std::vector<Zone>> VoronoiDiagram::zones(std::span<const double> radii, const Context& context) const {
@@ -131,6 +132,6 @@ std::vector<Point> VoronoiDiagram::points(const Edge& edge, double max_error, do
   return points;
 }
 
-std::optional<std::string> VoronoiDiagram::validate() const { return voronoi::validate(parts_->diagram, parts_->instance); }
+std::optional<std::string> VoronoiDiagram::validate() const { return voronoi::validate(parts_->diagram, network().extent() > 0 ? horizon() : 0); }
 
 }  // namespace krepl
