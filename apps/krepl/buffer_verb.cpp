@@ -117,7 +117,11 @@ Result<std::vector<Zone>> zones_from_diagram(const input::NetworkData& data, con
 }
 
 Result<std::vector<Zone>> compute_zones(const input::NetworkData& data, const BufferPlan& plan, Session& session) {
-  if (wants_diagram(plan.engine, plan.radii, *data.network)) return zones_from_diagram(data, plan, session);
+  if (wants_diagram(plan.engine, plan.radii, *data.network)) {
+    Result<std::vector<Zone>> zones = zones_from_diagram(data, plan, session);
+    if (zones.ok() || plan.engine == "voronoi" || zones.error().code != ErrorCode::computation) return zones;
+    session.detail("diagram    " + zones.error().text());  // auto: the other engine needs none
+  }
   std::vector<Zone> zones;
   for (double radius : plan.radii) {
     Stopwatch watch;

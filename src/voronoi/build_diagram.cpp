@@ -124,7 +124,7 @@ Error disagreement(const Sites& sites, Index face) {
   return {ErrorCode::computation, "the Voronoi diagram could not be certified: face " + std::to_string(face) +
                                       " and one of its neighbours disagree in quadruple precision",
           "near x " + std::to_string(p.x) + ", y " + std::to_string(p.y) + " relative to the data's origin",
-          "please report this input"};
+          "take the engine intervals"};
 }
 
 class Settling {
@@ -266,6 +266,9 @@ Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, const 
   Diagram d = lay_out(borders, context);
   d.counters = counters;
   place_vertices(sites, borders, context, d);
+  if (const auto wrong = validate(d, sites.instance().extent() > 0 ? sites.horizon() : 0)) {
+    return Error{ErrorCode::computation, "the Voronoi diagram could not be certified: " + *wrong, "", "take the engine intervals"};
+  }
   return d;
 }
 

@@ -1,4 +1,6 @@
 // The zones out of the diagram are those of the covered-intervals engine, on every family of degenerate input.
+#include <cstdio>
+
 #include "krepl/voronoi.hpp"
 #include "support/zone_comparison.hpp"
 #include "support/zone_property.hpp"
@@ -8,12 +10,23 @@ namespace {
 
 using VoronoiEngine = PropertyTest;
 
-std::optional<std::string> fault_of_engines(const ZoneCase& c) {
+/// Segments folded onto each other that others cross can be too much for quadruple precision (docs/voronoi.md, "Known limits"): then
+/// building must end with an error, never with a wrong diagram, and rarely.
+struct Tally {
+  int all = 0, refused = 0;
+};
+
+std::optional<std::string> fault_of_engines(const ZoneCase& c, Tally& tally) {
   auto network = network_of(c);
   if (!network) return std::nullopt;  // the generators also make what is refused
   const auto shared = std::make_shared<const Network>(std::move(*network));
   const auto diagram = VoronoiDiagram::build(shared);
-  if (!diagram) return diagram.error().text();
+  ++tally.all;
+  if (!diagram) {
+    ++tally.refused;
+    if (diagram.error().code != ErrorCode::computation) return diagram.error().text();
+    return std::nullopt;
+  }
   if (auto wrong = diagram->validate()) return wrong;
   for (const double factor : {0.25, 1.0, 1.5, 8.0}) {
     const ZoneOptions options{c.radius * factor};
@@ -28,11 +41,14 @@ std::optional<std::string> fault_of_engines(const ZoneCase& c) {
 }
 
 TEST_P(VoronoiEngine, AgreesWithIntervals) {
-  holds("agrees with the engine by intervals", [](const ZoneCase& c) {
-    const auto fault = fault_of_engines(c);
+  Tally tally;
+  holds("agrees with the engine by intervals", [&](const ZoneCase& c) {
+    const auto fault = fault_of_engines(c, tally);
     if (fault) RC_LOG() << *fault << '\n';
     RC_ASSERT(!fault);
   });
+  std::printf("%d of %d diagrams refused\n", tally.refused, tally.all);
+  EXPECT_LE(tally.refused, tally.all / 20 + 1);
 }
 
 KREPL_FOR_ALL_FAMILIES(VoronoiEngine);
