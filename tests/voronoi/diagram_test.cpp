@@ -1,0 +1,194 @@
+// The diagram itself, by brute force: along every edge both sites are equally near and nothing is nearer. Blind spots: an edge that is
+// missing (validate() and the comparison of zones see that); sites that coincide to 1e-9 S are not told apart.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "krepl/voronoi.hpp"
+#include "support/environment.hpp"
+#include "support/zone_case.hpp"
+
+namespace krepl::test {
+namespace {
+
+double distance(Point p, Point a, Point b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+  const double t = square > 0 ? std::min(std::max(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0), 1.0) : 0;
+  return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+}
+
+class Witness {
+ public:
+  explicit Witness(const Network& n) : n_(n), scale_(n.extent()) {}
+
+  double nearest(Point p) const {
+    const Point q = local(p);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Point v : n_.vertices()) least = std::min(least, std::hypot(q.x - v.x, q.y - v.y));
+    for (const auto s : n_.segments()) least = std::min(least, distance(q, n_.vertices()[s.a], n_.vertices()[s.b]));
+    return least;
+  }
+  double to(const VoronoiDiagram::Site& site, Point p) const {
+    const Point q = local(p);
+    if (site.is_vertex) return std::hypot(q.x - n_.vertices()[site.index].x, q.y - n_.vertices()[site.index].y);
+    const auto s = n_.segments()[site.index];
+    return distance(q, n_.vertices()[s.a], n_.vertices()[s.b]);
+  }
+  double tolerance(double clearance) const { return 1e-9 * std::max(scale_, clearance); }
+
+ private:
+  Point local(Point p) const { return {p.x - n_.origin().x, p.y - n_.origin().y}; }
+  const Network& n_;
+  double scale_;
+};
+
+std::shared_ptr<const Network> shared(const ZoneCase& c) {
+  auto network = network_of(c);
+  EXPECT_TRUE(network.ok());
+  return std::make_shared<const Network>(std::move(*network));
+}
+
+void expect_sound(const ZoneCase& c) {
+  const auto network = shared(c);
+  const auto diagram = VoronoiDiagram::build(network);
+  ASSERT_TRUE(diagram.ok()) << diagram.error().text();
+  EXPECT_EQ(diagram->validate().value_or("sound"), "sound");
+  const Witness witness(*network);
+  const double far = 2 * network->extent();
+  const auto edges = diagram->edges();
+  EXPECT_EQ(edges.size(), diagram->edge_count());
+  for (const auto& edge : edges) {
+    for (const auto& [end, clearance] : {std::pair{edge.start, edge.start_clearance}, {edge.end, edge.end_clearance}}) {
+      if (clearance > far) continue;
+      EXPECT_NEAR(witness.nearest(end), clearance, witness.tolerance(clearance)) << text(c);
+    }
+    double least = std::min(edge.start_clearance, edge.end_clearance);
+    for (const Point p : diagram->points(edge, 1e-3 * network->extent(), far)) {
+      const double r = witness.nearest(p);
+      least = std::min(least, r);
+      EXPECT_NEAR(witness.to(edge.left, p), r, witness.tolerance(r)) << text(c);
+      EXPECT_NEAR(witness.to(edge.right, p), r, witness.tolerance(r)) << text(c);
+    }
+    EXPECT_LE(edge.minimum, least + witness.tolerance(least)) << text(c);
+  }
+}
+
+TEST(VoronoiDiagram, OneSegment) {
+  const ZoneCase c{{line({{0, 0}, {10, 0}})}};
+  expect_sound(c);
+  const auto diagram = VoronoiDiagram::build(shared(c));
+  EXPECT_EQ(diagram->face_count(), 4u);  // two sides, two ends
+  EXPECT_EQ(diagram->edge_count(), 4u);  // a perpendicular at each end to either side
+  for (const auto& edge : diagram->edges()) EXPECT_TRUE(edge.touches_site);
+}
+
+TEST(VoronoiDiagram, OnePointHasNoEdge) {
+  const auto diagram = VoronoiDiagram::build(shared({{point(3, 4)}}));
+  ASSERT_TRUE(diagram.ok());
+  EXPECT_EQ(diagram->face_count(), 1u);
+  EXPECT_EQ(diagram->edge_count(), 0u);
+  const auto zone = diagram->zone({2});
+  ASSERT_TRUE(zone.ok());
+  EXPECT_NEAR(zone->area(), 4 * M_PI, 1e-12);
+}
+
+TEST(VoronoiDiagram, SquareHasItsDiagonals) {
+  const ZoneCase c{{line({{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}})}};
+  expect_sound(c);
+  const auto diagram = VoronoiDiagram::build(shared(c));
+  double inside = 0;  // length of the axis inside: two diagonals
+  for (const auto& edge : diagram->edges()) {
+    const double length = std::hypot(edge.end.x - edge.start.x, edge.end.y - edge.start.y);
+    if (!edge.touches_site && std::max(edge.start_clearance, edge.end_clearance) < 5.1) inside += length;
+  }
+  EXPECT_NEAR(inside, 20 * std::sqrt(2.0), 1e-12);
+}
+
+TEST(VoronoiDiagram, PointOverLineMakesAParabola) {
+  const ZoneCase c{{line({{-10, 0}, {10, 0}}), point(0, 4)}};
+  expect_sound(c);
+  const auto diagram = VoronoiDiagram::build(shared(c));
+  bool found = false;
+  for (const auto& edge : diagram->edges()) {
+    if (!edge.parabolic) continue;
+    found = true;
+    EXPECT_NEAR(edge.minimum, 2, 1e-15);
+    for (const Point p : diagram->points(edge, 1e-4, 100)) EXPECT_NEAR(p.y, (p.x * p.x + 16) / 8, 1e-12);
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST(VoronoiDiagram, CrossingSegmentsNeedNoNoding) { expect_sound({{line({{-5, -4}, {6, 5}}), line({{-5, 5}, {4, -3}})}}); }
+
+TEST(VoronoiDiagram, TeeWhoseVertexLiesOnASegment) { expect_sound({{line({{0, 0}, {9, 0}}), line({{3, 0}, {3, 7}})}}); }
+
+TEST(VoronoiDiagram, OverlapAndDuplicate) {
+  expect_sound({{line({{0, 0}, {9, 0}}), line({{3, 0}, {12, 0}}), line({{9, 0}, {0, 0}}), point(4, 4)}});
+}
+
+TEST(VoronoiDiagram, StreetGridWithCocircularSites) {
+  ZoneCase c;
+  for (int i = 0; i < 5; ++i) {
+    c.parts.push_back(line({{0, 10.0 * i}, {40, 10.0 * i}}));
+    c.parts.push_back(line({{10.0 * i, 0}, {10.0 * i, 40}}));
+  }
+  expect_sound(c);
+}
+
+TEST(VoronoiDiagram, RandomSegmentsThatCross) {
+  std::mt19937_64 random(seed());
+  std::uniform_real_distribution<double> place(-100, 100), shift(-15, 15);
+  for (int run = 0; run < int(20 * effort()) + 1; ++run) {
+    ZoneCase c;
+    for (int i = 0; i < 40; ++i) {
+      const Point p{place(random), place(random)};
+      c.parts.push_back(line({p, {p.x + shift(random), p.y + shift(random)}, {p.x + shift(random), p.y + shift(random)}}));
+    }
+    expect_sound(c);
+  }
+}
+
+TEST(VoronoiDiagram, RadiusBeyondTheHorizonIsRefused) {
+  const auto diagram = VoronoiDiagram::build(shared({{line({{0, 0}, {1, 0}})}}));
+  const auto zone = diagram->zone({1e7});
+  ASSERT_FALSE(zone.ok());
+  EXPECT_EQ(zone.error().code, ErrorCode::usage);
+  EXPECT_FALSE(diagram->zone({-1}).ok());
+}
+
+TEST(VoronoiDiagram, SameForAnyNumberOfThreads) {
+  std::mt19937_64 random(seed());
+  std::uniform_real_distribution<double> step(-1, 1);
+  ZoneCase c;
+  for (int i = 0; i < 60; ++i) {
+    std::vector<Point> vertices{{30 * step(random), 30 * step(random)}};
+    for (int k = 0; k < 100; ++k) vertices.push_back({vertices.back().x + step(random), vertices.back().y + step(random)});
+    c.parts.push_back(line(vertices));
+  }
+  const auto network = shared(c);
+  std::vector<VoronoiDiagram::Edge> first;
+  std::vector<double> areas;
+  const std::vector<double> radii{0.1, 0.3, 0.5, 0.7, 1, 2};
+  for (const unsigned threads : {1u, 2u, 5u}) {
+    Context context;
+    context.threads = threads;
+    const auto diagram = VoronoiDiagram::build(network, context);
+    ASSERT_TRUE(diagram.ok()) << diagram.error().text();
+    const auto edges = diagram->edges();
+    const auto zones = diagram->zones(radii, context);
+    ASSERT_TRUE(zones.ok());
+    if (first.empty()) first = edges;
+    ASSERT_EQ(first.size(), edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      ASSERT_TRUE(edges[i].start == first[i].start && edges[i].end == first[i].end && edges[i].minimum == first[i].minimum);
+    }
+    std::vector<double> now;
+    for (const Zone& zone : *zones) now.push_back(zone.area());
+    if (areas.empty()) areas = now;
+    EXPECT_EQ(areas, now);
+  }
+}
+
+}  // namespace
+}  // namespace krepl::test
