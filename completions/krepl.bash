@@ -2,7 +2,7 @@
 
 _krepl() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  local verbs="buffer profile terrain height info verify view" verb= word
+  local verbs="buffer axis profile terrain height info verify view" verb= word
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case " $verbs " in *" $word "*) verb=$word; break ;; esac
   done
@@ -17,7 +17,7 @@ _krepl() {
       [[ $verb == terrain ]] && formats="json gpkg step tif stl ply glb png"
       mapfile -t COMPREPLY < <(compgen -W "$formats" -- "$current"); return ;;
     --engine)
-      local engines="auto intervals"
+      local engines="auto intervals voronoi"
       [[ $verb == terrain ]] && engines="auto incremental"
       mapfile -t COMPREPLY < <(compgen -W "$engines" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "mm cm m km in ft" -- "$current"); return ;;
@@ -31,7 +31,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --where | --max-error | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points) return ;;
+    --radius | --where | --max-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points) return ;;
   esac
   if [[ $current == -* ]]; then
     # The program itself knows its options, so that the two cannot disagree.
