@@ -35,7 +35,7 @@ std::vector<std::vector<Point>> meanders(std::size_t segments) {
   for (std::size_t i = 0; i < count; ++i) {
     double level = 0, slope = 0;
     for (std::size_t k = 0; k <= each; ++k) {
-      slope = 0.9 * slope + 200 * unit(random);
+      slope = 0.9 * slope + 60 * unit(random);
       level = 0.98 * level + slope;
       lines[i].push_back({std::round(1000 * (double(k) + 0.3 * unit(random))), std::round(16000 * double(i) + std::clamp(level, -7900.0, 7900.0))});
     }
@@ -75,8 +75,9 @@ void measure(std::size_t wanted) {
   }
   const double boost = boost_cost(lines, n);
   const double krepl = (built - start) * 1e6 / double(n);
-  std::printf("n = %8zu: krepl %.2f us a segment, Boost.Polygon %.2f (%.1f times); %.1f candidates a face\n", n, krepl, boost,
-              boost / krepl, double(diagram->counters().candidates) / double(diagram->face_count()));
+  std::printf("n = %8zu: krepl %.2f us a segment, Boost.Polygon %.2f (%.1f times); %.1f candidates a face, %.2g of the faces in quadruple precision\n", n, krepl, boost,
+              boost / krepl, double(diagram->counters().candidates) / double(diagram->face_count()),
+              double(diagram->counters().faces_in_quadruple) / double(diagram->face_count()));
   const int radii = wanted > 100000 ? 10 : 100;
   const double before = processor_time();
   for (int i = 1; i <= radii; ++i) diagram->zone({200.0 * i}, context).value();

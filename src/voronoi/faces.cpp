@@ -40,7 +40,9 @@ void FaceBuilder::gather(Cell& cell, Index around, Vector<double> base, Vector<d
   const auto take = [&](Index site) {
     candidates_.push_back(site);
     ++counters.candidates;
-    if (cell.add_site(site)) reach_.update(cell, cell, base);
+    const bool changed = cell.add_site(site);
+    if (changed) reach_.update(cell, cell, base);
+    return changed;
   };
   // Hints first, then what lies near along the Hilbert curve, if it may still matter.
   seeds_.push_back(around);
@@ -57,12 +59,12 @@ void FaceBuilder::gather(Cell& cell, Index around, Vector<double> base, Vector<d
   const auto meets = [&](const SiteBoxes::Box& box) { return reach_.meets(box); };
   const auto visit = [&](Index site) {
     const auto end = candidates_.begin() + std::ptrdiff_t(seeds);
-    if (std::find(candidates_.begin(), end, site) == end) take(site);
+    return std::find(candidates_.begin(), end, site) == end && take(site);
   };
   if (reach_.is_open()) {
     boxes_.search_nearest(from, memory_, window, meets, visit);
   } else {
-    boxes_.search_near(memory_, window, meets, visit);
+    boxes_.search_near(from, memory_, window, meets, visit);
   }
 }
 

@@ -36,9 +36,10 @@ class SiteBoxes {
   /// narrower meanwhile. Nearest to `from` first: where little is known yet.
   template <class Window, class Meets, class Visit>
   void search_nearest(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const;
-  /// The same in the order of the tree: where what is found will hardly make the window narrower.
+  /// The same by going down the tree, nearest boxes first: where what is found will not make the window much narrower. visit()
+  /// tells whether it did.
   template <class Window, class Meets, class Visit>
-  void search_near(Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const;
+  void search_near(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const;
 
  private:
   static constexpr int arity = 8;
@@ -99,30 +100,38 @@ void SiteBoxes::search_nearest(Vector<double> from, Memory& memory, Window&& win
 }
 
 template <class Window, class Meets, class Visit>
-void SiteBoxes::search_near(Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const {
-  find_start(window(), memory);
+void SiteBoxes::search_near(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const {
   std::vector<std::uint64_t>& stack = memory.heap_;
   stack.clear();
+  const auto consider = [&](std::uint32_t level, std::uint32_t i) {
+    const Box b = box(level, i);
+    if (!meets(b)) return;
+    const double dx = std::max(std::abs(b.centre.x - from.x) - b.half.x, 0.0);
+    const double dy = std::max(std::abs(b.centre.y - from.y) - b.half.y, 0.0);
+    stack.push_back(entry(float(dx * dx + dy * dy), level, i));
+  };
+  const auto nearest_last = [&](std::size_t first) {
+    std::sort(stack.begin() + std::ptrdiff_t(first), stack.end(), std::greater<>{});
+  };
+  find_start(window(), memory);
   for (const std::uint32_t i : memory.start_) {
-    if (!meeting(box(memory.level_, i), window()) || !meets(box(memory.level_, i))) continue;
-    if (memory.level_ == 0) {
-      visit(i);
-    } else {
-      stack.push_back(entry(0, memory.level_, i));
-    }
+    if (meeting(box(memory.level_, i), window())) consider(memory.level_, i);
   }
+  nearest_last(0);
+  bool narrower = false;
   while (!stack.empty()) {
-    const std::uint32_t e = std::uint32_t(stack.back()), level = (e >> index_bits) - 1, node = e & ((1u << index_bits) - 1);
+    const std::uint32_t e = std::uint32_t(stack.back()), level = e >> index_bits, index = e & ((1u << index_bits) - 1);
     stack.pop_back();
-    for (unsigned bits = levels_[level][node].meeting(window()); bits != 0; bits &= bits - 1) {
-      const std::uint32_t i = node * arity + std::uint32_t(std::countr_zero(bits));
-      if (!meets(box(level, i))) continue;
-      if (level == 0) {
-        visit(i);
-      } else {
-        stack.push_back(entry(0, level, i));
-      }
+    if (narrower && !meets(box(level, index))) continue;  // what was found meanwhile rules it out
+    if (level == 0) {
+      narrower = visit(index) || narrower;
+      continue;
     }
+    const std::size_t first = stack.size();
+    for (unsigned bits = levels_[level - 1][index].meeting(window()); bits != 0; bits &= bits - 1) {
+      consider(level - 1, index * arity + std::uint32_t(std::countr_zero(bits)));
+    }
+    nearest_last(first);
   }
 }
 
