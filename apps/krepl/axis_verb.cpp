@@ -36,12 +36,15 @@ Result<AxisPlan> make_plan(const AxisOptions& options) {
     *value = *number;
   }
   Result<output::ZoneFormat> format = output::find_zone_format(options.output, options.format);
-  if (!format) return Error{format.error().code, options.output + ": " + format.error().what, "", format.error().remedy};
+  if (!format)
+    return Error{format.error().code, options.output + ": " + format.error().what, "", format.error().remedy};
   plan.format = *format;
   return plan;
 }
 
-std::string site_name(const VoronoiDiagram::Site& site) { return fmt::format("{}{}", site.is_vertex ? 'v' : 's', site.index); }
+std::string site_name(const VoronoiDiagram::Site& site) {
+  return fmt::format("{}{}", site.is_vertex ? 'v' : 's', site.index);
+}
 
 std::int64_t feature_of(const Network& network, const VoronoiDiagram::Site& site) {
   return (site.is_vertex ? network.vertex_source(site.index) : network.segment_source(site.index)).feature;
@@ -50,7 +53,8 @@ std::int64_t feature_of(const Network& network, const VoronoiDiagram::Site& site
 /// The edges asked for, as lines, one at a time.
 class AxisLines {
  public:
-  AxisLines(const VoronoiDiagram& diagram, const AxisPlan& plan, bool all) : diagram_(diagram), plan_(plan), all_(all) {}
+  AxisLines(const VoronoiDiagram& diagram, const AxisPlan& plan, bool all)
+      : diagram_(diagram), plan_(plan), all_(all) {}
 
   void each(const std::function<bool(const output::AxisLine&)>& take) {
     const Network& network = diagram_.network();
@@ -98,15 +102,15 @@ int run_axis(const AxisOptions& options, Session& session) {
   const VoronoiCounters& c = diagram->counters();
   session.detail(fmt::format("diagram    {:.3f} s: {} faces, {} edges, {} vertices", building.seconds(), c.faces,
                              diagram->edge_count(), diagram->vertex_count()));
-  session.detail(fmt::format("faces      {} candidates, {} faces and {} vertices in quadruple precision, {} rounds", c.candidates,
-                             c.faces_in_quadruple, c.vertices_in_quadruple, c.rounds));
+  session.detail(fmt::format("faces      {} candidates, {} faces and {} vertices in quadruple precision, {} rounds",
+                             c.candidates, c.faces_in_quadruple, c.vertices_in_quadruple, c.rounds));
 
   AxisLines lines(*diagram, *plan, options.all);
-  Status written = output::write_axis(options.output, [&](const auto& take) { lines.each(take); }, plan->format, data->crs,
-                                      session.context("writing"));
+  Status written = output::write_axis(
+      options.output, [&](const auto& take) { lines.each(take); }, plan->format, data->crs, session.context("writing"));
   if (!written) return session.fail(out_name, written.error());
-  session.summary(fmt::format("{} segments; {} edges of the {}; {:.3f} s", data->network->segments().size(), lines.written(),
-                              options.all ? "Voronoi diagram" : "medial axis", total.seconds()),
+  session.summary(fmt::format("{} segments; {} edges of the {}; {:.3f} s", data->network->segments().size(),
+                              lines.written(), options.all ? "Voronoi diagram" : "medial axis", total.seconds()),
                   options.output == "-");
   return 0;
 }
@@ -115,23 +119,31 @@ int run_axis(const AxisOptions& options, Session& session) {
 
 void add_axis_verb(CLI::App& program, Session& session) {
   auto options = std::make_shared<AxisOptions>();
-  CLI::App* verb = program.add_subcommand("axis", "Medial axis or Voronoi diagram of lines, polygons and points, with clearances");
-  verb->add_option("IN", options->input.path, "Vector file: any OGR format, .wkt (a geometry a line), .wkb, .gz of them, or -")
+  CLI::App* verb =
+      program.add_subcommand("axis", "Medial axis or Voronoi diagram of lines, polygons and points, with clearances");
+  verb->add_option("IN", options->input.path,
+                   "Vector file: any OGR format, .wkt (a geometry a line), .wkb, .gz of them, or -")
       ->required();
-  verb->add_option("OUT", options->output, "Result: .gpkg .fgb .geojson .shp ... (lines with attributes), .wkt (lines), or -")
+  verb->add_option("OUT", options->output,
+                   "Result: .gpkg .fgb .geojson .shp ... (lines with attributes), .wkt (lines), or -")
       ->required();
   verb->add_flag("--all", options->all, "The whole Voronoi diagram: also the perpendiculars at the ends of segments");
-  verb->add_option("--max-error", options->max_error, "Largest deviation of chords from parabolas (default: extent / 10000)")
+  verb->add_option("--max-error", options->max_error,
+                   "Largest deviation of chords from parabolas (default: extent / 10000)")
       ->type_name("LENGTH");
   verb->add_option("--max-clearance", options->max_clearance,
-                   "Only what is no farther than this from the input (default: 2 extents)")->type_name("LENGTH");
+                   "Only what is no farther than this from the input (default: 2 extents)")
+      ->type_name("LENGTH");
   verb->add_option("--layer", options->input.layer, "Layer to read")->type_name("NAME");
-  verb->add_option("--where", options->input.where, "Features to read, as SQL: \"class = 'river'\"")->type_name("CONDITION");
+  verb->add_option("--where", options->input.where, "Features to read, as SQL: \"class = 'river'\"")
+      ->type_name("CONDITION");
   verb->add_option("--crs", options->input.crs, "Coordinate system of the data, in place of what the file says")
       ->type_name("EPSG:n");
-  verb->add_option("--to-crs", options->input.to_crs, "Plane coordinate system to project the data to; auto chooses one")
+  verb->add_option("--to-crs", options->input.to_crs,
+                   "Plane coordinate system to project the data to; auto chooses one")
       ->type_name("EPSG:n|auto");
-  verb->add_option("--format", options->format, "Format of the result, in place of what its extension says")->type_name("NAME");
+  verb->add_option("--format", options->format, "Format of the result, in place of what its extension says")
+      ->type_name("NAME");
   session.add_common_options(*verb);
   session.on_run(*verb, [options, &session] { return run_axis(*options, session); });
 }

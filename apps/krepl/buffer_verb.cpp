@@ -86,10 +86,10 @@ void tell_counters(const Zone& zone, double seconds, Session& session) {
 
 void tell_diagram(const VoronoiDiagram& diagram, double seconds, Session& session) {
   const VoronoiCounters& c = diagram.counters();
-  session.detail(fmt::format("diagram    {:.3f} s: {} faces, {} edges, {} vertices", seconds, c.faces, diagram.edge_count(),
-                             diagram.vertex_count()));
-  session.detail(fmt::format("faces      {} candidates, {} faces and {} vertices in quadruple precision, {} rounds", c.candidates,
-                             c.faces_in_quadruple, c.vertices_in_quadruple, c.rounds));
+  session.detail(fmt::format("diagram    {:.3f} s: {} faces, {} edges, {} vertices", seconds, c.faces,
+                             diagram.edge_count(), diagram.vertex_count()));
+  session.detail(fmt::format("faces      {} candidates, {} faces and {} vertices in quadruple precision, {} rounds",
+                             c.candidates, c.faces_in_quadruple, c.vertices_in_quadruple, c.rounds));
 }
 
 std::string summary_line(const Network& network, const std::vector<Zone>& zones, double seconds) {
@@ -176,8 +176,10 @@ void add_buffer_verb(CLI::App& program, Session& session) {
   verb->add_option("OUT", options->output,
                    "Result: .gpkg .fgb .wkt .wkb (curves), .svg .dxf (arcs), .geojson .shp ... (chords), or -")
       ->required();
-  verb->add_option("--radius", options->radius, "Radius of the disk, in the unit of the coordinates; several, or FIRST:LAST:STEP, give nested zones")
-      ->required()->type_name("R[,R2,...]");
+  verb->add_option("--radius", options->radius,
+                   "Radius of the disk, in the unit of the coordinates; several, or FIRST:LAST:STEP, give nested zones")
+      ->required()
+      ->type_name("R[,R2,...]");
   verb->add_option("--layer", options->input.layer, "Layer to read")->type_name("NAME");
   verb->add_option("--where", options->input.where, "Features to read, as SQL: \"class = 'river'\"")->type_name("CONDITION");
   verb->add_option("--crs", options->input.crs, "Coordinate system of the data, in place of what the file says")

@@ -113,8 +113,10 @@ Status add_range(std::string_view text, std::vector<double>& radii) {
   const auto usage = [&](std::string_view what, std::string_view remedy) {
     return Error{ErrorCode::usage, fmt::format("--radius '{}' {}", text, what), "", std::string(remedy)};
   };
-  if (two == text.npos || text.find(':', two + 1) != text.npos) return usage("is not a range", "write FIRST:LAST:STEP, as 10:1000:10");
-  const Result<double> first = parse_radius(text.substr(0, one)), last = parse_radius(text.substr(one + 1, two - one - 1)),
+  if (two == text.npos || text.find(':', two + 1) != text.npos)
+    return usage("is not a range", "write FIRST:LAST:STEP, as 10:1000:10");
+  const Result<double> first = parse_radius(text.substr(0, one)),
+                       last = parse_radius(text.substr(one + 1, two - one - 1)),
                        step = parse_radius(text.substr(two + 1));
   for (const Result<double>* value : {&first, &last, &step}) {
     if (!*value) return value->error();

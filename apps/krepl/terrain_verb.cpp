@@ -94,7 +94,9 @@ EdgeCounts count_edges(const Surface& surface) {
   EdgeCounts counts;
   for (std::size_t e = 0; e < surface.subdivision().edge_count(); ++e) {
     const Surface::EdgeKind kind = surface.edge(Surface::Index(e)).kind;
-    ++(kind == Surface::EdgeKind::seam ? counts.seams : kind == Surface::EdgeKind::valley ? counts.valleys : counts.rims);
+    ++(kind == Surface::EdgeKind::seam     ? counts.seams
+       : kind == Surface::EdgeKind::valley ? counts.valleys
+                                           : counts.rims);
   }
   return counts;
 }

@@ -75,8 +75,8 @@ class Session {
 inline std::string input_name(const std::string& path) { return path == "-" ? "standard input" : path; }
 inline std::string output_name(const std::string& path) { return path == "-" ? "standard output" : path; }
 
-/// One or more radii separated by commas, each finite and positive, or ranges FIRST:LAST:STEP; an Error of code usage names what
-/// is wrong.
+/// One or more radii separated by commas, each finite and positive, or ranges FIRST:LAST:STEP; an Error of code usage
+/// names what is wrong.
 Result<std::vector<double>> parse_radii(std::string_view text);
 /// Exactly one radius, finite and positive.
 Result<double> parse_radius(std::string_view text);

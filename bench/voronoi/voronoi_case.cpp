@@ -1,9 +1,10 @@
-// Segment Voronoi diagrams: cost per segment and its growth with n, beside Boost.Polygon on the same lines in the same run; then zones at
-// many radii, beside as many runs of the covered-intervals engine.
+// Segment Voronoi diagrams: cost per segment and its growth with n, beside Boost.Polygon on the same lines in the same
+// run; then zones at many radii, beside as many runs of the covered-intervals engine.
 //
 //   voronoi_case [LARGEST_N]    (default 100000; from 10000 in steps of ten)
 //
-// The lines are bundles of x-monotone meanders that do not cross: Boost.Polygon assumes that, and wants integers of 32 bits.
+// The lines are bundles of x-monotone meanders that do not cross: Boost.Polygon assumes that, and wants integers of 32
+// bits.
 #include <sys/resource.h>
 
 #include <boost/polygon/point_data.hpp>
@@ -37,7 +38,8 @@ std::vector<std::vector<Point>> meanders(std::size_t segments) {
     for (std::size_t k = 0; k <= each; ++k) {
       slope = 0.9 * slope + 60 * unit(random);
       level = 0.98 * level + slope;
-      lines[i].push_back({std::round(1000 * (double(k) + 0.3 * unit(random))), std::round(16000 * double(i) + std::clamp(level, -7900.0, 7900.0))});
+      lines[i].push_back({std::round(1000 * (double(k) + 0.3 * unit(random))),
+                          std::round(16000 * double(i) + std::clamp(level, -7900.0, 7900.0))});
     }
   }
   return lines;
@@ -75,18 +77,21 @@ void measure(std::size_t wanted) {
   }
   const double boost = boost_cost(lines, n);
   const double krepl = (built - start) * 1e6 / double(n);
-  std::printf("n = %8zu: krepl %.2f us a segment, Boost.Polygon %.2f (%.1f times); %.1f candidates a face, %.2g of the faces in quadruple precision\n", n, krepl, boost,
-              boost / krepl, double(diagram->counters().candidates) / double(diagram->face_count()),
-              double(diagram->counters().faces_in_quadruple) / double(diagram->face_count()));
+  std::printf(
+      "n = %8zu: krepl %.2f us a segment, Boost.Polygon %.2f (%.1f times); %.1f candidates a face, %.2g of the faces "
+      "in quadruple precision\n",
+      n, krepl, boost, boost / krepl, double(diagram->counters().candidates) / double(diagram->face_count()),
+      double(diagram->counters().faces_in_quadruple) / double(diagram->face_count()));
   const int radii = wanted > 100000 ? 10 : 100;
   const double before = processor_time();
   for (int i = 1; i <= radii; ++i) diagram->zone({200.0 * i}, context).value();
   const double between = processor_time();
   for (int i = 1; i <= radii; ++i) compute_zone(network, {200.0 * i}, context).value();
   const double after = processor_time();
-  std::printf("  %d radii: %.3f us a segment and radius out of the diagram, %.3f by intervals; all in all %.1f times faster\n", radii,
-              (between - before) * 1e6 / double(n) / radii, (after - between) * 1e6 / double(n) / radii,
-              (after - between) / (between - before + built - start));
+  std::printf(
+      "  %d radii: %.3f us a segment and radius out of the diagram, %.3f by intervals; all in all %.1f times faster\n",
+      radii, (between - before) * 1e6 / double(n) / radii, (after - between) * 1e6 / double(n) / radii,
+      (after - between) / (between - before + built - start));
 }
 
 }  // namespace

@@ -25,10 +25,11 @@ struct VoronoiCounters {
   std::uint64_t rounds = 0;                 ///< of computing faces again until all neighbours agreed
 };
 
-/// The segment Voronoi diagram of a network: for every place of the plane, which site is nearest. Sites are the two sides of
-/// each open segment and the vertices. A vertex has a face of its own only within the gap above 180 degrees that its segments
-/// leave (thesis 3.4 with its erratum: faces of end points and reflex vertices are there); everywhere else around it a side
-/// is nearer. Lines may cross, overlap, branch and repeat: segments that cross share the crossing as a place of clearance 0.
+/// The segment Voronoi diagram of a network: for every place of the plane, which site is nearest. Sites are the two
+/// sides of each open segment and the vertices. A vertex has a face of its own only within the gap above 180 degrees
+/// that its segments leave (thesis 3.4 with its erratum: faces of end points and reflex vertices are there); everywhere
+/// else around it a side is nearer. Lines may cross, overlap, branch and repeat: segments that cross share the crossing
+/// as a place of clearance 0.
 ///
 /// The diagram answers for every radius: the zone's boundary within a face is the site's own boundary at distance R.
 class VoronoiDiagram {
@@ -41,30 +42,31 @@ class VoronoiDiagram {
     friend bool operator==(const Site&, const Site&) = default;
   };
 
-  /// The stretch of the diagram between two faces: a straight piece (two vertices, two sides, or a side and its own end) or a
-  /// piece of a parabola (a side and another vertex). Coordinates are absolute.
+  /// The stretch of the diagram between two faces: a straight piece (two vertices, two sides, or a side and its own
+  /// end) or a piece of a parabola (a side and another vertex). Coordinates are absolute.
   struct Edge {
-    Site left, right;    ///< the sites whose faces lie on the left and on the right, from start to end
-    Point start, end;    ///< an unbounded edge ends at the horizon
+    Site left, right;  ///< the sites whose faces lie on the left and on the right, from start to end
+    Point start, end;  ///< an unbounded edge ends at the horizon
     double start_clearance, end_clearance;  ///< distance from the sites
-    double minimum;      ///< least distance from the sites along the edge
+    double minimum;                         ///< least distance from the sites along the edge
     bool parabolic;
-    /// True for a perpendicular between a side and its own end, which touches the network: part of the Voronoi diagram, not of
-    /// the medial axis.
+    /// True for a perpendicular between a side and its own end, which touches the network: part of the Voronoi diagram,
+    /// not of the medial axis.
     bool touches_site;
   };
 
-  /// Computes the diagram: expected O(n log n), about 500 bytes per segment; polygons count as their rings. Decisions are those
-  /// of one instance whose vertices are within 2^-72 S (docs/voronoi.md). Errors: cancelled; a diagram that does not
-  /// certify.
+  /// Computes the diagram: expected O(n log n), about 500 bytes per segment; polygons count as their rings. Decisions
+  /// are those of one instance whose vertices are within 2^-72 S (docs/voronoi.md). Errors: cancelled; a diagram that
+  /// does not certify.
   static Result<VoronoiDiagram> build(std::shared_ptr<const Network> network, const Context& context = {});
 
-  /// The zone of the network at one radius: the same rings as compute_zone gives. O(n), with a small constant. Errors as
-  /// compute_zone; and ErrorCode::usage for a radius beyond horizon().
+  /// The zone of the network at one radius: the same rings as compute_zone gives. O(n), with a small constant. Errors
+  /// as compute_zone; and ErrorCode::usage for a radius beyond horizon().
   Result<Zone> zone(const ZoneOptions& options, const Context& context = {}) const;
   /// The zones at several radii, in the order given, side by side on all threads.
   Result<std::vector<Zone>> zones(std::span<const double> radii, const Context& context = {}) const;
-  /// Faces are cut off at this distance from their site: 2^20 extents of the network (infinite if it has a single vertex).
+  /// Faces are cut off at this distance from their site: 2^20 extents of the network (infinite if it has a single
+  /// vertex).
   double horizon() const;
 
   const Network& network() const;
@@ -75,13 +77,14 @@ class VoronoiDiagram {
 
   /// All edges, each once, in a fixed order.
   std::vector<Edge> edges() const;
-  /// Points along an edge from start to end, ends included; chords deviate from a parabola by max_error at most, where coordinates
-  /// can hold that. Only what is no farther than max_clearance from the sites: none if that is nothing. Precondition: the edge
-  /// is one of edges(); max_error > 0; its clearance falls and rises again at most once, so one stretch at either end is left out.
+  /// Points along an edge from start to end, ends included; chords deviate from a parabola by max_error at most, where
+  /// coordinates can hold that. Only what is no farther than max_clearance from the sites: none if that is nothing.
+  /// Precondition: the edge is one of edges(); max_error > 0; its clearance falls and rises again at most once, so one
+  /// stretch at either end is left out.
   std::vector<Point> points(const Edge& edge, double max_error, double max_clearance) const;
 
-  /// Edges are the same seen from both sides, borders of faces are closed, what has no neighbour lies at the horizon. Returns what
-  /// is wrong and where, or nothing.
+  /// Edges are the same seen from both sides, borders of faces are closed, what has no neighbour lies at the horizon.
+  /// Returns what is wrong and where, or nothing.
   std::optional<std::string> validate() const;
 
  private:

@@ -17,7 +17,8 @@ namespace {
 
 Error interrupted() { return {ErrorCode::cancelled, "interrupted while writing", "", ""}; }
 
-void put_points(fmt::memory_buffer& text, const std::vector<Point>& points, std::string_view between, std::string_view pair) {
+void put_points(fmt::memory_buffer& text, const std::vector<Point>& points, std::string_view between,
+                std::string_view pair) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i > 0) text.append(between);
     fmt::format_to(std::back_inserter(text), fmt::runtime(pair), points[i].x, points[i].y);
@@ -31,12 +32,13 @@ void put_wkt(fmt::memory_buffer& text, const AxisLine& line) {
 }
 
 void put_geojson(fmt::memory_buffer& text, const AxisLine& line, bool first) {
-  fmt::format_to(std::back_inserter(text),
-                 "{}{{\"type\":\"Feature\",\"properties\":{{\"kind\":\"{}\",\"start_clearance\":{},\"end_clearance\":{},"
-                 "\"min_clearance\":{},\"left_feature\":{},\"right_feature\":{},\"left_site\":\"{}\",\"right_site\":\"{}\"}},"
-                 "\"geometry\":{{\"type\":\"LineString\",\"coordinates\":[",
-                 first ? "" : ",\n", line.kind, line.start_clearance, line.end_clearance, line.minimum, line.left_feature,
-                 line.right_feature, line.left_site, line.right_site);
+  fmt::format_to(
+      std::back_inserter(text),
+      "{}{{\"type\":\"Feature\",\"properties\":{{\"kind\":\"{}\",\"start_clearance\":{},\"end_clearance\":{},"
+      "\"min_clearance\":{},\"left_feature\":{},\"right_feature\":{},\"left_site\":\"{}\",\"right_site\":\"{}\"}},"
+      "\"geometry\":{{\"type\":\"LineString\",\"coordinates\":[",
+      first ? "" : ",\n", line.kind, line.start_clearance, line.end_clearance, line.minimum, line.left_feature,
+      line.right_feature, line.left_site, line.right_site);
   put_points(text, line.points, ",", "[{},{}]");
   text.append(std::string_view("]}}"));
 }
@@ -69,15 +71,16 @@ struct Field {
   OGRFieldType type;
 };
 // Ten characters at most, for Shapefile.
-constexpr Field fields[] = {{"kind", OFTString},          {"start_clr", OFTReal},      {"end_clr", OFTReal},
-                            {"min_clr", OFTReal},         {"left_feat", OFTInteger64}, {"right_feat", OFTInteger64},
-                            {"left_site", OFTString},     {"right_site", OFTString}};
+constexpr Field fields[] = {{"kind", OFTString},      {"start_clr", OFTReal},      {"end_clr", OFTReal},
+                            {"min_clr", OFTReal},     {"left_feat", OFTInteger64}, {"right_feat", OFTInteger64},
+                            {"left_site", OFTString}, {"right_site", OFTString}};
 
 class AxisLayer {
  public:
   explicit AxisLayer(const Context& context) : context_(context) {}
 
-  Status write(const std::string& path, const std::string& driver_name, const AxisSource& lines, const std::string& crs) {
+  Status write(const std::string& path, const std::string& driver_name, const AxisSource& lines,
+               const std::string& crs) {
     ScopedOption fixed_date("OGR_CURRENT_DATE", file_date("%Y-%m-%dT%H:%M:%S.000Z"));
     ScopedOption lazy("OGR_SQLITE_SYNCHRONOUS", "OFF");
     GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_name.c_str());
@@ -100,7 +103,9 @@ class AxisLayer {
   }
 
  private:
-  Error failure() const { return messages_.error(ErrorCode::io, "cannot be written", "", "choose another place or format"); }
+  Error failure() const {
+    return messages_.error(ErrorCode::io, "cannot be written", "", "choose another place or format");
+  }
 
   Status create_layer(const std::string& driver_name, const std::string& crs) {
     OGRSpatialReference reference;
@@ -158,7 +163,8 @@ Status write_axis(const std::string& path, const AxisSource& lines, const ZoneFo
   ogr::initialise();
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return file.error();
-  if (Status written = AxisLayer(context).write(file->temporary_path(), format.driver, lines, crs); !written) return written;
+  if (Status written = AxisLayer(context).write(file->temporary_path(), format.driver, lines, crs); !written)
+    return written;
   return file->commit();
 }
 

@@ -17,16 +17,18 @@ namespace krepl::output {
 struct AxisLine {
   std::vector<Point> points;  ///< two or more
   std::string kind;           ///< `line` or `parabola`
-  double start_clearance = 0, end_clearance = 0, minimum = 0;  ///< distance from the sites at the ends, and the least along it
-  std::int64_t left_feature = -1, right_feature = -1;          ///< the input features it runs between
-  std::string left_site, right_site;  ///< `s3` a segment, `v4` a vertex of the input
+  double start_clearance = 0, end_clearance = 0,
+         minimum = 0;                                  ///< distance from the sites at the ends, and the least along it
+  std::int64_t left_feature = -1, right_feature = -1;  ///< the input features it runs between
+  std::string left_site, right_site;                   ///< `s3` a segment, `v4` a vertex of the input
 };
 
 /// Calls its argument with every line in turn, until that returns false.
 using AxisSource = std::function<void(const std::function<bool(const AxisLine&)>&)>;
 
-/// Writes lines with their attributes: WKT (geometry only), GeoJSON, or any format of OGR that has lines. The file appears whole
-/// or not at all. Errors: usage for svg, dxf and wkb; whatever keeps the file from being written; cancelled.
+/// Writes lines with their attributes: WKT (geometry only), GeoJSON, or any format of OGR that has lines. The file
+/// appears whole or not at all. Errors: usage for svg, dxf and wkb; whatever keeps the file from being written;
+/// cancelled.
 Status write_axis(const std::string& path, const AxisSource& lines, const ZoneFormat& format, const std::string& crs,
                   const Context& context = {});
 

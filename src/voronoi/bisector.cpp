@@ -70,7 +70,8 @@ bool Bisector::clip(double most, double& from, double& to) const {
 std::vector<Point> Bisector::points(double max_error, double max_clearance) const {
   double from = 0, to = 0;
   if (!clip(max_clearance, from, to)) return {};
-  // A chord over a stretch w of the parabola y = x^2 / 2h deviates from it by w^2 / 8h at most; 2^20 points are enough for all.
+  // A chord over a stretch w of the parabola y = x^2 / 2h deviates from it by w^2 / 8h at most; 2^20 points are enough
+  // for all.
   double steps = 1;
   if (parabola_) steps = std::clamp(std::ceil(std::abs(to - from) / std::sqrt(8 * height_ * max_error)), 1.0, 0x1p20);
   std::vector<Point> points{at(from)};

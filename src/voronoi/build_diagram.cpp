@@ -10,7 +10,9 @@ namespace {
 constexpr std::size_t block = 1 << 11;
 constexpr int most_rounds = 64;
 
-bool has_face(const Instance& in, Index element) { return in.is_side(element) || in.sector(in.vertex_of(element)).before != none; }
+bool has_face(const Instance& in, Index element) {
+  return in.is_side(element) || in.sector(in.vertex_of(element)).before != none;
+}
 
 /// Neighbours of a vertex's face that the faces of the sides beside it know already: those next to the common borders.
 void find_hints(const Borders& borders, const Instance& in, Index element, std::vector<Index>& hints) {
@@ -19,7 +21,8 @@ void find_hints(const Borders& borders, const Instance& in, Index element, std::
   if (sector.before == element) return;
   const auto before = borders.border(sector.before), after = borders.border(sector.after);
   for (std::size_t i = 1; i < 3; ++i) {
-    if (before.size() > i && before[before.size() - 1 - i].label != none) hints.push_back(before[before.size() - 1 - i].label);
+    if (before.size() > i && before[before.size() - 1 - i].label != none)
+      hints.push_back(before[before.size() - 1 - i].label);
     if (after.size() > i && after[i].label != none) hints.push_back(after[i].label);
   }
 }
@@ -63,7 +66,8 @@ bool build_faces(const Sites& sites, const SiteBoxes& boxes, Index first, Index 
 }
 
 /// Marks, among the given faces, those that disagree with a neighbour, and the neighbour.
-void mark_disagreeing(const Borders& borders, const std::vector<Index>& faces, const Context& context, std::vector<char>& marked) {
+void mark_disagreeing(const Borders& borders, const std::vector<Index>& faces, const Context& context,
+                      std::vector<char>& marked) {
   Context quiet;
   quiet.threads = context.threads;
   std::vector<std::vector<Index>> parts((faces.size() + block - 1) / block);
@@ -121,22 +125,28 @@ void build_again(const Sites& sites, const SiteBoxes& boxes, const std::vector<I
 Error disagreement(const Sites& sites, Index face) {
   const Instance& in = sites.instance();
   const Point p = in.vertices()[in.is_side(face) ? in.ends(face).from : in.vertex_of(face)];
-  return {ErrorCode::computation, "the Voronoi diagram could not be certified: face " + std::to_string(face) +
-                                      " and one of its neighbours disagree in quadruple precision",
+  return {ErrorCode::computation,
+          "the Voronoi diagram could not be certified: face " + std::to_string(face) +
+              " and one of its neighbours disagree in quadruple precision",
           "near x " + std::to_string(p.x) + ", y " + std::to_string(p.y) + " relative to the data's origin",
           "take the engine intervals"};
 }
 
 class Settling {
  public:
-  Settling(const Sites& sites, const SiteBoxes& boxes, const Context& context, Borders& borders, std::vector<char>& again,
-           DiagramCounters& counters)
-      : sites_(sites), boxes_(boxes), context_(context), borders_(borders), again_(again), counters_(counters),
+  Settling(const Sites& sites, const SiteBoxes& boxes, const Context& context, Borders& borders,
+           std::vector<char>& again, DiagramCounters& counters)
+      : sites_(sites),
+        boxes_(boxes),
+        context_(context),
+        borders_(borders),
+        again_(again),
+        counters_(counters),
         precise_(borders.count.size(), 0) {}
 
-  /// Brings all faces to agree. Faces done in quadruple precision are true ones of the moved instance, so they agree with each
-  /// other but for links that are too short even for that; what grows from round to round is only the rim where they meet faces in double
-  /// precision.
+  /// Brings all faces to agree. Faces done in quadruple precision are true ones of the moved instance, so they agree
+  /// with each other but for links that are too short even for that; what grows from round to round is only the rim
+  /// where they meet faces in double precision.
   Status run() {
     std::vector<Index> all(borders_.count.size());
     std::iota(all.begin(), all.end(), 0);
@@ -181,8 +191,8 @@ class Settling {
     build_again(sites_, boxes_, faces, context_, borders_);
     for (const Index e : faces) look_around(e), precise_[e] = 1;
   }
-  /// Links far below the accuracy statement that only one of two faces sees are given to the other too, or taken from the one: the
-  /// shortest first.
+  /// Links far below the accuracy statement that only one of two faces sees are given to the other too, or taken from
+  /// the one: the shortest first.
   bool reconcile(const std::vector<Index>& stuck) {
     const double extent = sites_.instance().extent();
     for (const double most : {0x1p-48, 0x1p-36}) {
@@ -200,7 +210,8 @@ class Settling {
         const Index link = borders_.first[face] + k, other = borders_.links[link].label;
         if (borders_.is_sound(face, link)) continue;
         look_around(face);
-        if (insert ? !borders_.insert_twin(face, link, tolerance) : !borders_.remove_short(face, link, tolerance)) continue;
+        if (insert ? !borders_.insert_twin(face, link, tolerance) : !borders_.remove_short(face, link, tolerance))
+          continue;
         ++counters_.links_reconciled;
         look_around(face);
         if (other != none) look_around(other);
@@ -267,7 +278,8 @@ Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, const 
   d.counters = counters;
   place_vertices(sites, borders, context, d);
   if (const auto wrong = validate(d, sites.instance().extent() > 0 ? sites.horizon() : 0)) {
-    return Error{ErrorCode::computation, "the Voronoi diagram could not be certified: " + *wrong, "", "take the engine intervals"};
+    return Error{ErrorCode::computation, "the Voronoi diagram could not be certified: " + *wrong, "",
+                 "take the engine intervals"};
   }
   return d;
 }

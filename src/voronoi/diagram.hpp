@@ -18,30 +18,30 @@ struct DiagramCounters {
   std::uint64_t rounds = 0;                 ///< of doing faces again until all agreed
 };
 
-/// The faces of all elements, put together. Links (half-edges) of face e are begin[e] .. begin[e+1), counter-clockwise, from
-/// the site's start to its end (an isolated vertex: all around).
+/// The faces of all elements, put together. Links (half-edges) of face e are begin[e] .. begin[e+1), counter-clockwise,
+/// from the site's start to its end (an isolated vertex: all around).
 struct Diagram {
   static constexpr Index base = none - 1;  // in place of a neighbour: the site itself, or a crossing of segments
 
   std::vector<Index> begin;
-  std::vector<Index> label;    // the face on the other side; none: the horizon
-  std::vector<Index> twin;     // the same link seen from there; none: there is none
-  std::vector<Index> vertex;   // where the link ends
-  std::vector<double> minimum; // the least clearance along the link, at most that of its ends
-  std::vector<Point> place;      // per vertex
-  std::vector<double> clearance; // per vertex
+  std::vector<Index> label;       // the face on the other side; none: the horizon
+  std::vector<Index> twin;        // the same link seen from there; none: there is none
+  std::vector<Index> vertex;      // where the link ends
+  std::vector<double> minimum;    // the least clearance along the link, at most that of its ends
+  std::vector<Point> place;       // per vertex
+  std::vector<double> clearance;  // per vertex
   DiagramCounters counters;
 
   Index face_count() const { return Index(begin.size() - 1); }
   Index link_count() const { return Index(label.size()); }
 };
 
-/// Computes all faces in parallel and puts them together; faces that disagree with a neighbour are done again more precisely.
-/// ErrorCode::computation names the place where neighbours still disagree.
+/// Computes all faces in parallel and puts them together; faces that disagree with a neighbour are done again more
+/// precisely. ErrorCode::computation names the place where neighbours still disagree.
 Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, const Context& context);
 
-/// Twins are mutual and bound by the same vertices, borders are closed, what has no neighbour lies at the horizon. Returns what is
-/// wrong, or nothing.
+/// Twins are mutual and bound by the same vertices, borders are closed, what has no neighbour lies at the horizon.
+/// Returns what is wrong, or nothing.
 std::optional<std::string> validate(const Diagram& diagram, double horizon);
 
 }  // namespace krepl::voronoi

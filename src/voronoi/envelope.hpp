@@ -39,9 +39,9 @@ struct Stretches {
   }
 };
 
-/// The face of one site, as the lower envelope of its bisectors with all others over the site's own parameter (the place
-/// along a side, the direction from a vertex). `Curve` has a label, none for the horizon; `nearer(b, a)` tells where
-/// b lies below a.
+/// The face of one site, as the lower envelope of its bisectors with all others over the site's own parameter (the
+/// place along a side, the direction from a vertex). `Curve` has a label, none for the horizon; `nearer(b, a)` tells
+/// where b lies below a.
 template <class Real, class Curve>
 class Envelope {
  public:
@@ -62,8 +62,10 @@ class Envelope {
     wins_.clear();
     first_ = 0;
     while (first_ < arcs_.size() && !(arcs_[first_].end > low)) ++first_;
-    for (std::size_t i = first_; i < arcs_.size() && arcs_[i].begin < high; ++i) wins_.push_back(win(arcs_[i], curve, low, high));
-    for (std::size_t k = 0; k + 1 < wins_.size(); ++k) agree(arcs_[first_ + k], wins_[k], arcs_[first_ + k + 1], wins_[k + 1]);
+    for (std::size_t i = first_; i < arcs_.size() && arcs_[i].begin < high; ++i)
+      wins_.push_back(win(arcs_[i], curve, low, high));
+    for (std::size_t k = 0; k + 1 < wins_.size(); ++k)
+      agree(arcs_[first_ + k], wins_[k], arcs_[first_ + k + 1], wins_[k + 1]);
     if (std::none_of(wins_.begin(), wins_.end(), [](const Win& w) { return w.holds[0] || w.holds[1]; })) return false;
     next_.assign(arcs_.begin(), arcs_.begin() + std::ptrdiff_t(first_));
     for (std::size_t k = 0; k < wins_.size(); ++k) cut(arcs_[first_ + k], wins_[k], curve);
@@ -105,8 +107,8 @@ class Envelope {
   }
   static Real distance(Real a, Real b) { return a < b ? b - a : a - b; }
 
-  /// Where two arcs are equally high at their common end, the new curve wins over both there or over none. Where rounding says
-  /// otherwise, a stretch that is shorter than the other arc's margin is none.
+  /// Where two arcs are equally high at their common end, the new curve wins over both there or over none. Where
+  /// rounding says otherwise, a stretch that is shorter than the other arc's margin is none.
   static void agree(const Arc& before, Win& left, const Arc& after, Win& right) {
     const Real x = after.begin;
     const int l = left.holds[1] && left.to[1] == x ? 1 : (left.holds[0] && left.to[0] == x ? 0 : -1);

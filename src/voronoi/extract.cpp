@@ -23,7 +23,9 @@ class Tracer {
   }
 
   Result<zone::Rings> rings(const Context& context) {
-    if (!is_sound()) return Error{ErrorCode::computation, "the Voronoi diagram is not sound at this radius", "", "please report this input"};
+    if (!is_sound())
+      return Error{ErrorCode::computation, "the Voronoi diagram is not sound at this radius", "",
+                   "please report this input"};
     zone::Rings rings;
     std::vector<char> done(entries_.size(), 0);
     std::vector<Index> from;  // per piece: the face it comes from
@@ -55,7 +57,8 @@ class Tracer {
     for (std::size_t k = 0; k < entries_.size(); ++k) {
       const Entry& e = entries_[k];
       if (e.link == none) continue;
-      if (e.exit == none || d_.twin[e.link] == none || d_.twin[e.exit] == none || following(k) == entries_.size()) return false;
+      if (e.exit == none || d_.twin[e.link] == none || d_.twin[e.exit] == none || following(k) == entries_.size())
+        return false;
     }
     return true;
   }
@@ -86,7 +89,8 @@ class Tracer {
       if (end_clearance(i) > radius_) open = i;
     }
     if (open != none) out.push_back({f, open, early_exit});  // only around an isolated vertex
-    if (open == none && out.size() == before && early_exit == none && is_closed(f) && !any_below(f)) out.push_back({f, none, none});
+    if (open == none && out.size() == before && early_exit == none && is_closed(f) && !any_below(f))
+      out.push_back({f, none, none});
   }
   bool starts_above(Index f, Index i) const {
     const Index previous = i > d_.begin[f] ? i - 1 : d_.begin[f + 1] - 1;
@@ -102,7 +106,8 @@ class Tracer {
   /// The piece that goes on in the face behind the link this one leaves by.
   std::size_t following(std::size_t k) const {
     const Index entered = d_.twin[entries_[k].exit], face = d_.label[entries_[k].exit];
-    auto e = std::lower_bound(entries_.begin(), entries_.end(), face, [](const Entry& a, Index f) { return a.face < f; });
+    auto e =
+        std::lower_bound(entries_.begin(), entries_.end(), face, [](const Entry& a, Index f) { return a.face < f; });
     while (e != entries_.end() && e->face == face && e->link != entered) ++e;
     if (e == entries_.end() || e->face != face) return entries_.size();
     return std::size_t(e - entries_.begin());

@@ -125,8 +125,8 @@ bool FaceBuilder::build(Index element, std::span<const Index> hints, std::vector
   return write(vertex_, out) && !vertex_.is_uncertain();
 }
 
-/// The candidates that still come near, then, as double precision may have taken a site for nearer than it is, all others that
-/// come near the face in quadruple precision.
+/// The candidates that still come near, then, as double precision may have taken a site for nearer than it is, all
+/// others that come near the face in quadruple precision.
 template <class Cell, class Precise>
 void FaceBuilder::gather_precisely(const Cell& cell, Precise& precise, Vector<double> base) {
   near_.clear();
@@ -141,7 +141,8 @@ void FaceBuilder::gather_precisely(const Cell& cell, Precise& precise, Vector<do
       base, memory_, [&]() -> const SiteBoxes::Box& { return reach_.window(); },
       [&](const SiteBoxes::Box& box) { return reach_.meets(box); },
       [&](Index site) {
-        if (!std::binary_search(near_.begin(), near_.end(), site) && precise.add_site(site)) reach_.update(precise, cell, base);
+        if (!std::binary_search(near_.begin(), near_.end(), site) && precise.add_site(site))
+          reach_.update(precise, cell, base);
       });
 }
 
@@ -166,12 +167,11 @@ bool FaceBuilder::write(const SideCell<Real>& cell, std::vector<Link>& out) cons
   const auto ends = cell.ends();
   const Point base = in.vertices()[ends.from];
   const auto& arcs = cell.arcs();
-  const auto place = [&](Real x, double height) {
-    return sum(base, rounded(cell.plane({x, Real(height)})));
-  };
+  const auto place = [&](Real x, double height) { return sum(base, rounded(cell.plane({x, Real(height)}))); };
   const bool starts = in.sector(ends.from).after == cell.element(), stops = in.sector(ends.to).before == cell.element();
   const double left = double(arcs.front().curve.height(0));
-  const Index first = starts ? in.circle(ends.from) : cell.corner(0), last = stops ? in.circle(ends.to) : cell.corner(1);
+  const Index first = starts ? in.circle(ends.from) : cell.corner(0),
+              last = stops ? in.circle(ends.to) : cell.corner(1);
   if (first == none || last == none) return false;
   if (first != arcs.front().curve.label) out.push_back({first, left, 0, place(0, left)});
   for (std::size_t i = 0; i < arcs.size(); ++i) {

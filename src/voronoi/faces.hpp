@@ -20,17 +20,22 @@ struct FaceCounters {
   std::uint64_t candidates = 0;  ///< sites looked at closely
 };
 
-/// Computes faces one at a time: the site's neighbours are searched in a tree, the face is the lower envelope of the bisectors.
-/// The links of a face stand in counter-clockwise order, from the perpendicular at the site's start to that at its end; an
-/// isolated vertex has a closed border.
+/// Computes faces one at a time: the site's neighbours are searched in a tree, the face is the lower envelope of the
+/// bisectors. The links of a face stand in counter-clockwise order, from the perpendicular at the site's start to that
+/// at its end; an isolated vertex has a closed border.
 class FaceBuilder {
  public:
   FaceBuilder(const Sites& sites, const SiteBoxes& boxes)
-      : sites_(sites), boxes_(boxes), side_(sites), vertex_(sites), precise_side_(sites), precise_vertex_(sites),
+      : sites_(sites),
+        boxes_(boxes),
+        side_(sites),
+        vertex_(sites),
+        precise_side_(sites),
+        precise_vertex_(sites),
         reach_(0x1p-45 * sites.instance().extent()) {}
 
-  /// Appends the face of an element in double precision. Returns false if it is certainly wrong: take build_precisely. `hints`:
-  /// likely neighbours. Sides should come in order.
+  /// Appends the face of an element in double precision. Returns false if it is certainly wrong: take build_precisely.
+  /// `hints`: likely neighbours. Sides should come in order.
   bool build(Index element, std::span<const Index> hints, std::vector<Link>& out);
   /// The same in quadruple precision of the moved vertices, among the sites that come near in double precision.
   void build_precisely(Index element, std::vector<Link>& out);

@@ -26,9 +26,12 @@ bool Borders::insert_twin(Index face, Index link, double tolerance) {
   if (link == first[face] || l.label == none) return false;
   const Index p = before(face, link), n = after(face, link), other = l.label;
   const Point start = links[link - 1].end;
-  const auto near = [&](Point a, Point b) { return std::abs(a.x - b.x) <= tolerance && std::abs(a.y - b.y) <= tolerance; };
+  const auto near = [&](Point a, Point b) {
+    return std::abs(a.x - b.x) <= tolerance && std::abs(a.y - b.y) <= tolerance;
+  };
   for (Index i = first[other]; i + 1 < first[other] + count[other]; ++i) {
-    if (links[i].label != n || links[i + 1].label != p || !near(links[i].end, l.end) || !near(links[i].end, start)) continue;
+    if (links[i].label != n || links[i + 1].label != p || !near(links[i].end, l.end) || !near(links[i].end, start))
+      continue;
     const Index begin = Index(links.size());
     const std::vector<Link> old(border(other).begin(), border(other).end());
     links.insert(links.end(), old.begin(), old.begin() + (i + 1 - first[other]));

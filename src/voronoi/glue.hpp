@@ -16,15 +16,16 @@ class Borders {
   std::vector<Index> first, count;  // per face
 
   std::span<const Link> border(Index face) const { return {links.data() + first[face], count[face]}; }
-  /// The link of the other face that is the same stretch: between the same neighbours, in the opposite order. None if there is
-  /// none, or if two would do.
+  /// The link of the other face that is the same stretch: between the same neighbours, in the opposite order. None if
+  /// there is none, or if two would do.
   Index twin(Index face, Index link) const;
   /// True if the link has its twin, or lies along the horizon and has no neighbour.
   bool is_sound(Index face, Index link) const {
     return links[link].label == none ? links[link].minimum > horizon_ / 2 : twin(face, link) != none;
   }
-  /// A link that the other face sees as well but that is too short for its own numbers: two links that it separates follow each other
-  /// there, and end where this one lies. Puts it in between. Returns false if the other face does not look like that.
+  /// A link that the other face sees as well but that is too short for its own numbers: two links that it separates
+  /// follow each other there, and end where this one lies. Puts it in between. Returns false if the other face does not
+  /// look like that.
   bool insert_twin(Index face, Index link, double tolerance);
   /// The reverse: leaves a link out that the other face does not see, if it is shorter than the tolerance.
   bool remove_short(Index face, Index link, double tolerance);
@@ -43,8 +44,8 @@ class Borders {
   double horizon_;
 };
 
-/// Gives every end of a link its vertex; links that end in the same vertex share it. Where the faces around a vertex do not agree
-/// on its place to a few units in the last place, it is evaluated in quadruple precision.
+/// Gives every end of a link its vertex; links that end in the same vertex share it. Where the faces around a vertex do
+/// not agree on its place to a few units in the last place, it is evaluated in quadruple precision.
 void place_vertices(const Sites& sites, const Borders& borders, const Context& context, Diagram& diagram);
 
 }  // namespace krepl::voronoi

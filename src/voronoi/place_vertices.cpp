@@ -13,7 +13,8 @@ struct Place {
   quad radius;
 };
 
-/// What a site adds to Newton's iteration: the direction from it to the centre, and by how much the distance exceeds the radius.
+/// What a site adds to Newton's iteration: the direction from it to the centre, and by how much the distance exceeds
+/// the radius.
 struct Contact {
   Vector<quad> away;
   quad excess;
@@ -30,12 +31,13 @@ Contact contact(const Sites& sites, Index element, const Place& at) {
   return {{v.x / l, v.y / l}, l - at.radius};
 }
 
-/// The circle that touches three sites, by Newton's iteration from a place that is nearly right. Returns false if it does
-/// not settle.
+/// The circle that touches three sites, by Newton's iteration from a place that is nearly right. Returns false if it
+/// does not settle.
 bool settle(const Sites& sites, const std::array<Index, 3>& touched, Place& place) {
   Place p = place;
   for (int i = 0; i < 12; ++i) {
-    const Contact a = contact(sites, touched[0], p), b = contact(sites, touched[1], p), c = contact(sites, touched[2], p);
+    const Contact a = contact(sites, touched[0], p), b = contact(sites, touched[1], p),
+                  c = contact(sites, touched[2], p);
     const Vector<quad> u = b.away - a.away, v = c.away - a.away;
     const quad f = a.excess - b.excess, g = a.excess - c.excess, det = cross(u, v);
     if (det == 0) return false;
@@ -54,7 +56,8 @@ bool settle(const Sites& sites, const std::array<Index, 3>& touched, Place& plac
 
 class Placing {
  public:
-  Placing(const Sites& sites, const Borders& borders, Diagram& d) : sites_(sites), in_(sites.instance()), borders_(borders), d_(d) {
+  Placing(const Sites& sites, const Borders& borders, Diagram& d)
+      : sites_(sites), in_(sites.instance()), borders_(borders), d_(d) {
     face_.resize(d.link_count());
     old_.resize(d.link_count());
     for (Index e = 0; e < d.face_count(); ++e) {

@@ -97,7 +97,8 @@ void Reach::update(const VertexCell<Real>& cell, const VertexCell<double>& frame
 bool Reach::meets(const SiteBoxes::Box& box) const {
   const Vector<double> c = box.centre - base_, h = box.half;
   for (const Disk& d : disks_) {
-    const double dx = std::max(std::abs(c.x - d.centre.x) - h.x, 0.0), dy = std::max(std::abs(c.y - d.centre.y) - h.y, 0.0);
+    const double dx = std::max(std::abs(c.x - d.centre.x) - h.x, 0.0),
+                 dy = std::max(std::abs(c.y - d.centre.y) - h.y, 0.0);
     if (dx * dx + dy * dy <= d.square) return true;
   }
   for (const Strip& s : strips_) {

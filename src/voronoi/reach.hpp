@@ -8,10 +8,10 @@
 
 namespace krepl::voronoi {
 
-/// Which boxes may hold a site that cuts a face as found so far: those that meet one of the empty disks about the face's
-/// border. Along a bisector with a point, all disks lie in the two at its ends; along one with a line also in the strip between
-/// the line's places that these two touch. Told a little too often (by 1e-9 of the disk and `slack`), so that ties are seen.
-/// Coordinates are relative to the place given as base.
+/// Which boxes may hold a site that cuts a face as found so far: those that meet one of the empty disks about the
+/// face's border. Along a bisector with a point, all disks lie in the two at its ends; along one with a line also in
+/// the strip between the line's places that these two touch. Told a little too often (by 1e-9 of the disk and `slack`),
+/// so that ties are seen. Coordinates are relative to the place given as base.
 class Reach {
  public:
   /// `slack`: by how much boxes are widened, so that what only the move of vertices brings near is seen.

@@ -30,8 +30,8 @@ bool SideCell<Real>::add_site(Index site) {
   return changed_;
 }
 
-/// A point that rounding may have brought to the other side of the base matters where its bisector, at height x^2 / 2y over the base,
-/// stays below the horizon.
+/// A point that rounding may have brought to the other side of the base matters where its bisector, at height x^2 / 2y
+/// over the base, stays below the horizon.
 template <class Real>
 void SideCell<Real>::look_at(Vector<Real> q) {
   const Real error = narrow<Real> * (kernel::absolute(q.x) + length_);
@@ -55,7 +55,8 @@ void SideCell<Real>::add_vertex(Index vertex, Vector<Real> q) {
     return;
   }
   // The frame is a reflection: counter-clockwise in the plane is clockwise here.
-  const Vector<Real> first = rotate(sites_.normal<Real>(sector.after)), last = rotate(sites_.normal<Real>(sector.before));
+  const Vector<Real> first = rotate(sites_.normal<Real>(sector.after)),
+                     last = rotate(sites_.normal<Real>(sector.before));
   const Real low = touching(q, first).x, high = touching(q, last).x;
   if (first.x > 0 && last.x < 0) {  // the sector opens upwards
     insert(curve, -infinite<Real>(), high);
@@ -66,7 +67,8 @@ void SideCell<Real>::add_vertex(Index vertex, Vector<Real> q) {
 }
 
 template <class Real>
-void SideCell<Real>::add_line(Curve curve, Vector<Real> normal, Vector<Real> anchor, Vector<Real> place, Real low, Real high) {
+void SideCell<Real>::add_line(Curve curve, Vector<Real> normal, Vector<Real> anchor, Vector<Real> place, Real low,
+                              Real high) {
   curve.at = place;
   curve.normal = normal;
   curve.anchor = anchor;

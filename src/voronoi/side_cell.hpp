@@ -24,13 +24,13 @@ template <class Real>
 struct SideCurve {
   Index label = none;
   bool is_line = false;
-  Vector<Real> at{};      // the point; of a line: a place (x, height) on the bisector
-  Vector<Real> normal{};  // lines: the site's, towards the centres
-  Vector<Real> anchor{};  // lines: a point of the site
+  Vector<Real> at{};             // the point; of a line: a place (x, height) on the bisector
+  Vector<Real> normal{};         // lines: the site's, towards the centres
+  Vector<Real> anchor{};         // lines: a point of the site
   Index ends[2] = {none, none};  // lines: the vertices of the site
   Vector<Real> places[2]{};      // lines: where they are
-  Real gap = 0;           // lines: 1 - normal.y
-  Real slope = 0;         // lines: of the bisector
+  Real gap = 0;                  // lines: 1 - normal.y
+  Real slope = 0;                // lines: of the bisector
 
   Real height(Real x) const {
     const Real dx = x - at.x;
@@ -38,8 +38,8 @@ struct SideCurve {
   }
 };
 
-/// Two points: the lower one is nearer between the roots of (q2y - q1y) t^2 + 2 q1y dx t + q1y (q2y (q1y - q2y) - dx^2), whose
-/// discriminant is q1y q2y |q1 - q2|^2; t is measured from the lower point.
+/// Two points: the lower one is nearer between the roots of (q2y - q1y) t^2 + 2 q1y dx t + q1y (q2y (q1y - q2y) -
+/// dx^2), whose discriminant is q1y q2y |q1 - q2|^2; t is measured from the lower point.
 template <class Real>
 Stretches<Real> nearer_point(const SideCurve<Real>& b, const SideCurve<Real>& a) {
   const bool b_low = b.at.y != a.at.y ? b.at.y < a.at.y : b.label < a.label;
@@ -54,8 +54,8 @@ Stretches<Real> nearer_point(const SideCurve<Real>& b, const SideCurve<Real>& a)
   return b_low ? Stretches<Real>::between(low, high) : Stretches<Real>::outside(low, high);
 }
 
-/// A point at height h over a line is nearer than the line between the roots of t^2 - 2 qy slope t + qy^2 - 2 qy m, t measured from
-/// the point and m the bisector's height over it; the discriminant is 2 qy h / (1 - n.y).
+/// A point at height h over a line is nearer than the line between the roots of t^2 - 2 qy slope t + qy^2 - 2 qy m, t
+/// measured from the point and m the bisector's height over it; the discriminant is 2 qy h / (1 - n.y).
 template <class Real>
 Stretches<Real> nearer_point_than_line(const SideCurve<Real>& point, const SideCurve<Real>& line, bool point_is_new) {
   const Vector<Real> q = point.at;
@@ -86,7 +86,8 @@ Stretches<Real> nearer_line(const SideCurve<Real>& b, const SideCurve<Real>& a) 
   const Vector<Real> u = a.normal + b.normal;
   const bool at_corner = a.at.x == b.at.x && a.at.y == b.at.y;  // of the base: there the bisectors meet
   if (turn != 0 && !at_corner && dot(u, u) > 3.99 && u.y < 1.9 && shared_end(a, b, i, k)) {
-    // Their own bisector starts in the shared vertex along the sum of the normals: sharp even where they are nearly parallel.
+    // Their own bisector starts in the shared vertex along the sum of the normals: sharp even where they are nearly
+    // parallel.
     const Vector<Real> q = a.places[i];
     const Real x = q.x + u.x * q.y / (dot(u, u) / 2 - u.y);
     return turn > 0 ? Stretches<Real>::between(-infinite<Real>(), x) : Stretches<Real>::between(x, infinite<Real>());
@@ -118,7 +119,8 @@ Stretches<Real> nearer(const SideCurve<Real>& b, const SideCurve<Real>& a) {
   return nearer_point(b, a);
 }
 
-/// The face of an open segment's side: between the perpendiculars at its ends, below the bisectors with all other sites.
+/// The face of an open segment's side: between the perpendiculars at its ends, below the bisectors with all other
+/// sites.
 template <class Real>
 class SideCell {
  public:
@@ -126,20 +128,24 @@ class SideCell {
 
   explicit SideCell(const Sites& sites) : sites_(sites) {}
   void start(Index element);
-  /// Takes a site (a segment with the vertices it brings along, or an isolated vertex) into account; returns true if the face changed.
+  /// Takes a site (a segment with the vertices it brings along, or an isolated vertex) into account; returns true if
+  /// the face changed.
   bool add_site(Index site);
 
   Index element() const { return element_; }
   Real length() const { return length_; }
   bool is_own(Index site) const { return site == element_ >> 1; }
   const std::vector<typename Envelope<Real, Curve>::Arc>& arcs() const { return envelope_.arcs(); }
-  /// True if double precision cannot tell on which side of the base a site lies that matters; neighbours might not notice.
+  /// True if double precision cannot tell on which side of the base a site lies that matters; neighbours might not
+  /// notice.
   bool is_uncertain() const { return uncertain_; }
-  /// The other side at the concave corner at the start (0) or end (1): with it the border begins or ends, in the corner itself, even
-  /// if that stretch is too short to be seen. None if there is no corner.
+  /// The other side at the concave corner at the start (0) or end (1): with it the border begins or ends, in the corner
+  /// itself, even if that stretch is too short to be seen. None if there is no corner.
   Index corner(int end) const { return corner_[end].label; }
   /// A vertex in the side's frame.
-  Vector<Real> locate(Index vertex) const { return rotate(sites_.instance().template difference<Real>(vertex, ends_.from)); }
+  Vector<Real> locate(Index vertex) const {
+    return rotate(sites_.instance().template difference<Real>(vertex, ends_.from));
+  }
   Vector<Real> rotate(Vector<Real> v) const { return {dot(v, u_), v.x * u_.y - v.y * u_.x}; }
   /// From the frame to the plane, relative to the vertex the side starts from.
   Vector<Real> plane(Vector<Real> p) const { return {p.x * u_.x + p.y * u_.y, p.x * u_.y - p.y * u_.x}; }

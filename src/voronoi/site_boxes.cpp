@@ -69,8 +69,10 @@ SiteBoxes::SiteBoxes(const Instance& instance, const Context& context) {
           continue;
         }
         const Node& c = (*below)[i];
-        n.min_x[k] = *std::min_element(c.min_x, c.min_x + arity), n.max_x[k] = *std::max_element(c.max_x, c.max_x + arity);
-        n.min_y[k] = *std::min_element(c.min_y, c.min_y + arity), n.max_y[k] = *std::max_element(c.max_y, c.max_y + arity);
+        n.min_x[k] = *std::min_element(c.min_x, c.min_x + arity),
+        n.max_x[k] = *std::max_element(c.max_x, c.max_x + arity);
+        n.min_y[k] = *std::min_element(c.min_y, c.min_y + arity),
+        n.max_y[k] = *std::max_element(c.max_y, c.max_y + arity);
       }
     });
     levels_.push_back(std::move(level));

@@ -12,7 +12,8 @@
 namespace krepl::voronoi {
 
 /// A packed tree of bounding boxes, eight children a node, over the sites in their (Hilbert) order, in single precision
-/// rounded outwards. A search visits what lies nearest to a place first and leaves out what the caller says cannot matter.
+/// rounded outwards. A search visits what lies nearest to a place first and leaves out what the caller says cannot
+/// matter.
 class SiteBoxes {
  public:
   struct Box {
@@ -21,8 +22,8 @@ class SiteBoxes {
 
   SiteBoxes(const Instance& instance, const Context& context);
 
-  /// What a search reuses of the one before: a few boxes of the tree that hold all sites of an area, so that it need not start at
-  /// the root; and memory.
+  /// What a search reuses of the one before: a few boxes of the tree that hold all sites of an area, so that it need
+  /// not start at the root; and memory.
   class Memory {
    private:
     friend class SiteBoxes;
@@ -32,12 +33,12 @@ class SiteBoxes {
     std::vector<std::uint64_t> heap_;
   };
 
-  /// Calls visit(site) for every site whose box, and the boxes above it, meet window() and pass meets(box). Both may become
-  /// narrower meanwhile. Nearest to `from` first: where little is known yet.
+  /// Calls visit(site) for every site whose box, and the boxes above it, meet window() and pass meets(box). Both may
+  /// become narrower meanwhile. Nearest to `from` first: where little is known yet.
   template <class Window, class Meets, class Visit>
   void search_nearest(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const;
-  /// The same by going down the tree, nearest boxes first: where what is found will not make the window much narrower. visit()
-  /// tells whether it did.
+  /// The same by going down the tree, nearest boxes first: where what is found will not make the window much narrower.
+  /// visit() tells whether it did.
   template <class Window, class Meets, class Visit>
   void search_near(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const;
 
@@ -53,10 +54,12 @@ class SiteBoxes {
     return std::uint64_t{std::bit_cast<std::uint32_t>(distance)} << 32 | level << index_bits | index;
   }
   static bool meeting(const Box& a, const Box& b) {
-    return std::abs(a.centre.x - b.centre.x) <= a.half.x + b.half.x && std::abs(a.centre.y - b.centre.y) <= a.half.y + b.half.y;
+    return std::abs(a.centre.x - b.centre.x) <= a.half.x + b.half.x &&
+           std::abs(a.centre.y - b.centre.y) <= a.half.y + b.half.y;
   }
   static bool within(const Box& a, const Box& b) {
-    return std::abs(a.centre.x - b.centre.x) + a.half.x <= b.half.x && std::abs(a.centre.y - b.centre.y) + a.half.y <= b.half.y;
+    return std::abs(a.centre.x - b.centre.x) + a.half.x <= b.half.x &&
+           std::abs(a.centre.y - b.centre.y) + a.half.y <= b.half.y;
   }
   /// Makes memory.start_ hold all sites of the window.
   void find_start(const Box& window, Memory& memory) const;
@@ -71,7 +74,8 @@ class SiteBoxes {
 };
 
 template <class Window, class Meets, class Visit>
-void SiteBoxes::search_nearest(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const {
+void SiteBoxes::search_nearest(Vector<double> from, Memory& memory, Window&& window, Meets&& meets,
+                               Visit&& visit) const {
   std::vector<std::uint64_t>& heap = memory.heap_;
   heap.clear();
   const auto consider = [&](std::uint32_t level, std::uint32_t i) {

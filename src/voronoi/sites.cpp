@@ -4,7 +4,8 @@
 
 namespace krepl::voronoi {
 
-Sites::Sites(const Instance& instance, const Context& context) : in_(instance), horizon_(instance.extent() > 0 ? horizon_in_extents * instance.extent() : 1) {
+Sites::Sites(const Instance& instance, const Context& context)
+    : in_(instance), horizon_(instance.extent() > 0 ? horizon_in_extents * instance.extent() : 1) {
   const std::size_t segments = instance.side_count() / 2, vertices = instance.vertices().size();
   kernel::resize_pages(context, direction_, segments);
   kernel::resize_pages(context, owner_, vertices, none);

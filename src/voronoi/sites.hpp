@@ -39,15 +39,15 @@ Vector<Real> operator*(Real s, Vector<Real> a) {
 /// Faces end this far from their site, in extents of the network.
 inline constexpr double horizon_in_extents = 0x1p20;
 
-/// The instance of docs/zone.md with what cells ask of it again and again. Elements are numbered as there: side 2s lies on
-/// the right of segment s from a to b, 2s+1 on the right of its reverse, side_count() + v is vertex v.
+/// The instance of docs/zone.md with what cells ask of it again and again. Elements are numbered as there: side 2s lies
+/// on the right of segment s from a to b, 2s+1 on the right of its reverse, side_count() + v is vertex v.
 class Sites {
  public:
   Sites(const Instance& instance, const Context& context);
 
   const Instance& instance() const { return in_; }
-  /// Faces end at this distance from their site. Beyond it, bends of a line of collinear vertices that only the move of vertices
-  /// makes would show.
+  /// Faces end at this distance from their site. Beyond it, bends of a line of collinear vertices that only the move of
+  /// vertices makes would show.
   double horizon() const { return horizon_; }
   bool is_side(Index element) const { return in_.is_side(element); }
 

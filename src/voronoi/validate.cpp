@@ -21,8 +21,8 @@ class Check {
  private:
   std::string at(Index f, Index i, const std::string& what) const {
     const Point p = d_.place[d_.vertex[i]];
-    return what + " at link " + std::to_string(i) + " of face " + std::to_string(f) + ", near x " + std::to_string(p.x) + ", y " +
-           std::to_string(p.y) + " relative to the origin";
+    return what + " at link " + std::to_string(i) + " of face " + std::to_string(f) + ", near x " +
+           std::to_string(p.x) + ", y " + std::to_string(p.y) + " relative to the origin";
   }
 
   std::optional<std::string> link(Index f, Index i) const {
@@ -36,7 +36,8 @@ class Check {
     if (other == f) return at(f, i, "a face that neighbours itself");
     if (t == none || d_.twin[t] != i || d_.label[t] != f) return at(f, i, "twins that are not mutual");
     if (t < d_.begin[other] || t >= d_.begin[other + 1]) return at(f, i, "a twin of another face");
-    if (!(d_.minimum[i] <= d_.clearance[d_.vertex[i]]) || d_.minimum[i] != d_.minimum[t]) return at(f, i, "a wrong minimum");
+    if (!(d_.minimum[i] <= d_.clearance[d_.vertex[i]]) || d_.minimum[i] != d_.minimum[t])
+      return at(f, i, "a wrong minimum");
     // The link starts where the one before it ends, and there its twin ends.
     if (i > d_.begin[f] && d_.vertex[i - 1] != d_.vertex[t]) return at(f, i, "a border that is not closed");
     return std::nullopt;

@@ -15,7 +15,8 @@ constexpr double thin = 0x1p-40;
 template <>
 constexpr double thin<quad> = 0;
 
-/// The vertex's bisector with a point q, mirrored: a centre in direction u sees q in the direction that u's mirror image is.
+/// The vertex's bisector with a point q, mirrored: a centre in direction u sees q in the direction that u's mirror
+/// image is.
 template <class Real>
 Vector<Real> mirrored(Vector<Real> n, Vector<Real> q) {
   const Real f = 2 * dot(n, q) / dot(q, q);

@@ -7,9 +7,9 @@
 
 namespace krepl::voronoi {
 
-/// A bisector of a vertex with another site, seen from the vertex in direction u: 1/r = c + w.u, with c = 0, w = 2 q/|q|^2 for
-/// a point q and c = 1/d, w = m/d for a line at distance d in direction m (a parabola with its focus in the vertex).
-/// Coordinates are those of a chart: u = (1, t) / sqrt(1 + t^2).
+/// A bisector of a vertex with another site, seen from the vertex in direction u: 1/r = c + w.u, with c = 0, w = 2
+/// q/|q|^2 for a point q and c = 1/d, w = m/d for a line at distance d in direction m (a parabola with its focus in the
+/// vertex). Coordinates are those of a chart: u = (1, t) / sqrt(1 + t^2).
 template <class Real>
 struct VertexCurve {
   Index label = none;
@@ -52,11 +52,12 @@ Stretches<Real> nearer_around(Real a0, Vector<Real> d, Real square) {
   return chart_stretches<Real>({-a0 * d.x + s * d.y, -a0 * d.y - s * d.x}, {-a0 * d.x - s * d.y, -a0 * d.y + s * d.x});
 }
 
-/// Two lines that share a vertex q: their own bisector starts there along u, the sum of their normals, and meets that with the
-/// face's vertex in q + t u, a root of k e t^2 + 2 q.u t + |q|^2 with k = |u|^2 / 2, e = |difference of the normals|^2 / 2. Sharp even
-/// where the lines are nearly parallel.
+/// Two lines that share a vertex q: their own bisector starts there along u, the sum of their normals, and meets that
+/// with the face's vertex in q + t u, a root of k e t^2 + 2 q.u t + |q|^2 with k = |u|^2 / 2, e = |difference of the
+/// normals|^2 / 2. Sharp even where the lines are nearly parallel.
 template <class Real>
-Stretches<Real> nearer_of_incident(const VertexCurve<Real>& b, const VertexCurve<Real>& a, Vector<Real> q, Vector<Real> d) {
+Stretches<Real> nearer_of_incident(const VertexCurve<Real>& b, const VertexCurve<Real>& a, Vector<Real> q,
+                                   Vector<Real> d) {
   const Vector<Real> u = a.normal + b.normal, turn = a.normal - b.normal;
   const Real ke = dot(u, u) * dot(turn, turn) / 4, half = -dot(q, u), square = half * half - ke * dot(q, q);
   if (!(square > 0)) return b.c > a.c ? Stretches<Real>::all() : Stretches<Real>::nowhere();
@@ -70,7 +71,8 @@ template <class Real>
 Stretches<Real> nearer(const VertexCurve<Real>& b, const VertexCurve<Real>& a) {
   if (a.label == b.label) return Stretches<Real>::nowhere();
   const Vector<Real> d = b.w - a.w;
-  if (a.label == none) return nearer_around<Real>(b.c - a.c, d, b.is_line ? a.c * (2 * b.c - a.c) : dot(d, d) - a.c * a.c);
+  if (a.label == none)
+    return nearer_around<Real>(b.c - a.c, d, b.is_line ? a.c * (2 * b.c - a.c) : dot(d, d) - a.c * a.c);
   if (a.is_line && b.is_line) {
     int i = 0, k = 0;
     if (dot(a.normal, b.normal) > 0 && shared_end(a, b, i, k)) return nearer_of_incident(b, a, a.places[i], d);
@@ -83,8 +85,8 @@ Stretches<Real> nearer(const VertexCurve<Real>& b, const VertexCurve<Real>& a) {
   return nearer_around<Real>(b.c - a.c, d, 4 * h / (line.distance * dot(point.at, point.at)));
 }
 
-/// The face of a vertex: the sector its segments leave open, or the whole plane around an isolated vertex, below the bisectors
-/// with all other sites. The sector is looked at in up to four charts of about 90 degrees.
+/// The face of a vertex: the sector its segments leave open, or the whole plane around an isolated vertex, below the
+/// bisectors with all other sites. The sector is looked at in up to four charts of about 90 degrees.
 template <class Real>
 class VertexCell {
  public:
@@ -109,7 +111,8 @@ class VertexCell {
   bool add_site(Index site);
 
   Index vertex() const { return vertex_; }
-  /// True if double precision cannot tell on which side of a segment that matters the vertex lies; neighbours might not notice.
+  /// True if double precision cannot tell on which side of a segment that matters the vertex lies; neighbours might not
+  /// notice.
   bool is_uncertain() const { return uncertain_; }
   bool is_isolated() const { return !sites_.is_side(sector_.before); }
   Instance::Sector sector() const { return sector_; }

@@ -21,7 +21,8 @@ struct VoronoiDiagram::Parts {
   voronoi::Diagram diagram;
   VoronoiCounters counters;
 
-  Parts(std::shared_ptr<const Network> n, const Context& context) : network(std::move(n)), instance(*network, 0, 0, 1, context) {}
+  Parts(std::shared_ptr<const Network> n, const Context& context)
+      : network(std::move(n)), instance(*network, 0, 0, 1, context) {}
 
   Site site(Index element) const {
     if (instance.is_side(element)) return {false, element >> 1, element & 1u};
@@ -51,10 +52,11 @@ Result<Zone> VoronoiDiagram::zone(const ZoneOptions& options, const Context& con
   if (options.radius >= horizon()) {
     char text[32];
     std::snprintf(text, sizeof text, "%.6g", options.radius);
-    return Error{ErrorCode::usage, "the radius " + std::string(text) + " is beyond the horizon of the Voronoi diagram", "",
-                 "take the engine intervals"};
+    return Error{ErrorCode::usage, "the radius " + std::string(text) + " is beyond the horizon of the Voronoi diagram",
+                 "", "take the engine intervals"};
   }
-  const voronoi::Instance instance(parts_->instance, options.radius, precision->effective_radius, precision->resolution);
+  const voronoi::Instance instance(parts_->instance, options.radius, precision->effective_radius,
+                                   precision->resolution);
   auto rings = voronoi::extract_rings(parts_->diagram, instance, context);
   if (!rings) return rings.error();
   return ZoneAssembly::finish(parts_->network, instance, std::move(*rings), precision->resolution, {}, context);
@@ -85,7 +87,8 @@ Result<std::vector<Zone>> VoronoiDiagram::zones(std::span<const double> radii, c
 }
 
 double VoronoiDiagram::horizon() const {
-  return network().extent() > 0 ? voronoi::horizon_in_extents * network().extent() : std::numeric_limits<double>::infinity();
+  return network().extent() > 0 ? voronoi::horizon_in_extents * network().extent()
+                                : std::numeric_limits<double>::infinity();
 }
 
 const Network& VoronoiDiagram::network() const { return *parts_->network; }
@@ -116,8 +119,8 @@ std::vector<VoronoiDiagram::Edge> VoronoiDiagram::edges() const {
         const Index v = in.vertex_of(in.is_side(f) ? other : f);
         own = e.from == v || e.to == v;
       }
-      edges.push_back({parts_->site(f), parts_->site(other), absolute(start), absolute(end), d.clearance[start], d.clearance[end],
-                       d.minimum[i], mixed && !own, own});
+      edges.push_back({parts_->site(f), parts_->site(other), absolute(start), absolute(end), d.clearance[start],
+                       d.clearance[end], d.minimum[i], mixed && !own, own});
     }
   }
   return edges;
@@ -132,6 +135,8 @@ std::vector<Point> VoronoiDiagram::points(const Edge& edge, double max_error, do
   return points;
 }
 
-std::optional<std::string> VoronoiDiagram::validate() const { return voronoi::validate(parts_->diagram, network().extent() > 0 ? horizon() : 0); }
+std::optional<std::string> VoronoiDiagram::validate() const {
+  return voronoi::validate(parts_->diagram, network().extent() > 0 ? horizon() : 0);
+}
 
 }  // namespace krepl

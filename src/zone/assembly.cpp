@@ -7,8 +7,8 @@ namespace krepl {
 using zone::Index;
 using zone::none;
 
-Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, const zone::Instance& instance, zone::Rings rings,
-                                  double resolution, ZoneCounters counters, const Context& context) {
+Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, const zone::Instance& instance,
+                                  zone::Rings rings, double resolution, ZoneCounters counters, const Context& context) {
   const Error cancelled{ErrorCode::cancelled, "cancelled", "", ""};
   if (context.cancelled()) return cancelled;
   rings = zone::contract(instance, std::move(rings), resolution, context, counters);

@@ -10,7 +10,8 @@ namespace krepl {
 /// Builds a Zone, with its subdivision.
 class ZoneAssembly {
  public:
-  /// From closed rings, by whichever engine: contracts what no double lies between, drops what lies inside polygons, nests.
+  /// From closed rings, by whichever engine: contracts what no double lies between, drops what lies inside polygons,
+  /// nests.
   static Result<Zone> finish(std::shared_ptr<const Network> network, const zone::Instance& instance, zone::Rings rings,
                              double resolution, ZoneCounters counters, const Context& context);
 

@@ -25,7 +25,8 @@ Result<Zone> compute_zone(std::shared_ptr<const Network> network, const ZoneOpti
   auto linked = zone::link_pieces(*instance, pieces, context);
   if (!linked) return linked.error();
   pieces = {};
-  return ZoneAssembly::finish(std::move(network), *instance, std::move(*linked), precision->resolution, counters, context);
+  return ZoneAssembly::finish(std::move(network), *instance, std::move(*linked), precision->resolution, counters,
+                              context);
 }
 
 }  // namespace krepl

@@ -63,8 +63,9 @@ class Instance {
   Index element_count() const { return side_count() + Index(vertices_.size()); }
   Index site_count() const { return Index(segments_.size() + shape_->isolated.size()); }
   Network::Segment site(Index i) const {
-    return i < segments_.size() ? segments_[i]
-                                : Network::Segment{shape_->isolated[i - segments_.size()], shape_->isolated[i - segments_.size()]};
+    return i < segments_.size()
+               ? segments_[i]
+               : Network::Segment{shape_->isolated[i - segments_.size()], shape_->isolated[i - segments_.size()]};
   }
 
   bool is_side(Index element) const { return element < side_count(); }

@@ -1,5 +1,6 @@
-// The diagram itself, by brute force: along every edge both sites are equally near and nothing is nearer. Blind spots: an edge that is
-// missing (validate() and the comparison of zones see that); sites that coincide to 1e-9 S are not told apart.
+// The diagram itself, by brute force: along every edge both sites are equally near and nothing is nearer. Blind spots:
+// an edge that is missing (validate() and the comparison of zones see that); sites that coincide to 1e-9 S are not told
+// apart.
 #include <cmath>
 #include <random>
 
@@ -119,7 +120,9 @@ TEST(VoronoiDiagram, PointOverLineMakesAParabola) {
   EXPECT_TRUE(found);
 }
 
-TEST(VoronoiDiagram, CrossingSegmentsNeedNoNoding) { expect_sound({{line({{-5, -4}, {6, 5}}), line({{-5, 5}, {4, -3}})}}); }
+TEST(VoronoiDiagram, CrossingSegmentsNeedNoNoding) {
+  expect_sound({{line({{-5, -4}, {6, 5}}), line({{-5, 5}, {4, -3}})}});
+}
 
 TEST(VoronoiDiagram, TeeWhoseVertexLiesOnASegment) { expect_sound({{line({{0, 0}, {9, 0}}), line({{3, 0}, {3, 7}})}}); }
 
@@ -143,7 +146,8 @@ TEST(VoronoiDiagram, RandomSegmentsThatCross) {
     ZoneCase c;
     for (int i = 0; i < 40; ++i) {
       const Point p{place(random), place(random)};
-      c.parts.push_back(line({p, {p.x + shift(random), p.y + shift(random)}, {p.x + shift(random), p.y + shift(random)}}));
+      c.parts.push_back(
+          line({p, {p.x + shift(random), p.y + shift(random)}, {p.x + shift(random), p.y + shift(random)}}));
     }
     expect_sound(c);
   }
@@ -163,7 +167,8 @@ TEST(VoronoiDiagram, SameForAnyNumberOfThreads) {
   ZoneCase c;
   for (int i = 0; i < 60; ++i) {
     std::vector<Point> vertices{{30 * step(random), 30 * step(random)}};
-    for (int k = 0; k < 100; ++k) vertices.push_back({vertices.back().x + step(random), vertices.back().y + step(random)});
+    for (int k = 0; k < 100; ++k)
+      vertices.push_back({vertices.back().x + step(random), vertices.back().y + step(random)});
     c.parts.push_back(line(vertices));
   }
   const auto network = shared(c);
@@ -181,7 +186,8 @@ TEST(VoronoiDiagram, SameForAnyNumberOfThreads) {
     if (first.empty()) first = edges;
     ASSERT_EQ(first.size(), edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      ASSERT_TRUE(edges[i].start == first[i].start && edges[i].end == first[i].end && edges[i].minimum == first[i].minimum);
+      ASSERT_TRUE(edges[i].start == first[i].start && edges[i].end == first[i].end &&
+                  edges[i].minimum == first[i].minimum);
     }
     std::vector<double> now;
     for (const Zone& zone : *zones) now.push_back(zone.area());

@@ -10,8 +10,8 @@ namespace {
 
 using VoronoiEngine = PropertyTest;
 
-/// Segments folded onto each other that others cross can be too much for quadruple precision (docs/voronoi.md, "Known limits"): then
-/// building must end with an error, never with a wrong diagram, and rarely.
+/// Segments folded onto each other that others cross can be too much for quadruple precision (docs/voronoi.md, "Known
+/// limits"): then building must end with an error, never with a wrong diagram, and rarely.
 struct Tally {
   int all = 0, refused = 0;
 };
@@ -35,7 +35,8 @@ std::optional<std::string> fault_of_engines(const ZoneCase& c, Tally& tally) {
     const auto by_diagram = diagram->zone(options);
     if (!by_diagram) return "R = " + std::to_string(options.radius) + ": " + by_diagram.error().text();
     if (auto wrong = by_diagram->validate()) return "R = " + std::to_string(options.radius) + ": " + *wrong;
-    if (auto differ = difference(*by_intervals, *by_diagram)) return "R = " + std::to_string(options.radius) + ": " + *differ;
+    if (auto differ = difference(*by_intervals, *by_diagram))
+      return "R = " + std::to_string(options.radius) + ": " + *differ;
   }
   return std::nullopt;
 }

@@ -1,5 +1,5 @@
-// Every real file of KREPL_DATA/vector at R = 0.1 .. 1000 mean segment lengths: one diagram gives the rings, holes and areas that the
-// covered-intervals engine gives.
+// Every real file of KREPL_DATA/vector at R = 0.1 .. 1000 mean segment lengths: one diagram gives the rings, holes and
+// areas that the covered-intervals engine gives.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -51,7 +51,8 @@ TEST(VoronoiRealFiles, AgreeWithIntervalsAtAllRadii) {
       const auto by_diagram = diagram->zone(options);
       ASSERT_TRUE(by_intervals.ok()) << by_intervals.error().text();
       ASSERT_TRUE(by_diagram.ok()) << by_diagram.error().text();
-      EXPECT_EQ(difference(*by_intervals, *by_diagram).value_or("same"), "same") << "R = " << lengths << " mean lengths";
+      EXPECT_EQ(difference(*by_intervals, *by_diagram).value_or("same"), "same")
+          << "R = " << lengths << " mean lengths";
     }
   }
 }
