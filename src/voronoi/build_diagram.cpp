@@ -88,8 +88,8 @@ void mark_disagreeing(const Borders& borders, const std::vector<Index>& faces, c
 }
 
 /// Does the given faces again in quadruple precision; the new borders stand at the end.
-void build_again(const Sites& sites, const SiteBoxes& boxes, const std::vector<Index>& faces, const Context& context,
-                 Borders& borders) {
+void build_again(const Sites& sites, const SiteBoxes& boxes, const std::vector<Index>& faces,
+                 FaceBuilder::Precision precision, const Context& context, Borders& borders) {
   constexpr std::size_t few = 8;
   struct Part {
     std::vector<Link> links;
@@ -104,7 +104,7 @@ void build_again(const Sites& sites, const SiteBoxes& boxes, const std::vector<I
     FaceBuilder builder(sites, boxes);
     for (std::size_t k = from; k < to; ++k) {
       const std::size_t start = part.links.size();
-      builder.build_precisely(faces[k], part.links);
+      builder.build_precisely(faces[k], precision, part.links);
       part.count.push_back(Index(part.links.size() - start));
     }
   });
@@ -127,7 +127,7 @@ Error disagreement(const Sites& sites, Index face) {
   const Point p = in.vertices()[in.is_side(face) ? in.ends(face).from : in.vertex_of(face)];
   return {ErrorCode::computation,
           "the Voronoi diagram could not be certified: face " + std::to_string(face) +
-              " and one of its neighbours disagree in quadruple precision",
+              " and one of its neighbours disagree",
           "near x " + std::to_string(p.x) + ", y " + std::to_string(p.y) + " relative to the data's origin",
           "take the engine intervals"};
 }
@@ -152,16 +152,19 @@ class Settling {
     std::iota(all.begin(), all.end(), 0);
     mark_disagreeing(borders_, all, context_, again_);
     for (int round = 0;; ++round) {
-      std::vector<Index> faces = marked([&](Index e) { return again_[e] && !precise_[e]; });
-      const std::vector<Index> stuck = marked([&](Index e) { return again_[e] && precise_[e]; });
-      if (faces.empty() && stuck.empty()) return std::monostate{};
-      if (round == most_rounds) return disagreement(sites_, faces.empty() ? stuck[0] : faces[0]);
+      const std::vector<Index> all_marked = marked([&](Index e) { return again_[e] != 0; });
+      if (all_marked.empty()) return std::monostate{};
+      if (round == most_rounds) return disagreement(sites_, all_marked[0]);
       look_.assign(precise_.size(), 0);
-      for (const Index e : stuck) look_[e] = 1;
+      for (const Index e : all_marked) look_[e] = 1;
+      // The least precise first: the others may then agree.
+      int rung = 0;
+      std::vector<Index> faces;
+      for (; rung < 2 && faces.empty(); ++rung) faces = marked([&](Index e) { return again_[e] && precise_[e] == rung; });
       if (faces.empty()) {
-        if (!reconcile(stuck)) return disagreement(sites_, stuck[0]);
+        if (!reconcile(all_marked)) return disagreement(sites_, all_marked[0]);
       } else {
-        do_again(faces);
+        do_again(faces, FaceBuilder::Precision(rung));
         if (context_.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
       }
       again_.assign(precise_.size(), 0);
@@ -184,12 +187,13 @@ class Settling {
       if (l.label != none) look_[l.label] = 1;
     }
   }
-  void do_again(const std::vector<Index>& faces) {
+  void do_again(const std::vector<Index>& faces, FaceBuilder::Precision precision) {
     ++counters_.rounds;
-    counters_.faces_in_quadruple += faces.size();
+    const bool quadruple = precision == FaceBuilder::Precision::quadruple;
+    (quadruple ? counters_.faces_in_quadruple : counters_.faces_in_widest) += faces.size();
     for (const Index e : faces) look_around(e);  // those that were neighbours
-    build_again(sites_, boxes_, faces, context_, borders_);
-    for (const Index e : faces) look_around(e), precise_[e] = 1;
+    build_again(sites_, boxes_, faces, precision, context_, borders_);
+    for (const Index e : faces) look_around(e), precise_[e] = char(precision);
   }
   /// Links far below the accuracy statement that only one of two faces sees are given to the other too, or taken from
   /// the one: the shortest first.

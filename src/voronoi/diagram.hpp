@@ -13,6 +13,7 @@ namespace krepl::voronoi {
 struct DiagramCounters {
   std::uint64_t faces = 0, candidates = 0;
   std::uint64_t faces_in_quadruple = 0;     ///< done again because neighbours disagreed in double precision
+  std::uint64_t faces_in_widest = 0;        ///< of them, done once more in 320 bits
   std::uint64_t vertices_in_quadruple = 0;  ///< evaluated again because the faces around them disagreed on the place
   std::uint64_t links_reconciled = 0;       ///< too short even for quadruple precision: seen from one side only
   std::uint64_t rounds = 0;                 ///< of doing faces again until all agreed

@@ -9,7 +9,7 @@
 namespace krepl::voronoi {
 
 template <class Real>
-constexpr Real infinite() {
+Real infinite() {
   return Real(std::numeric_limits<double>::infinity());
 }
 

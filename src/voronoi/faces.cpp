@@ -25,7 +25,7 @@ template <class Real>
 Real lowest(const VertexCurve<Real>& curve, Real begin, Real end) {
   const Real along = curve.w.x, across = curve.w.y;
   if (along > 0 && begin * along < across && across < end * along) {
-    return curve.is_line ? curve.distance / 2 : zone::length(curve.at) / 2;
+    return curve.is_line ? curve.distance / 2 : magnitude(curve.at) / 2;
   }
   return std::min(curve.height(begin), curve.height(end));
 }
@@ -146,19 +146,27 @@ void FaceBuilder::gather_precisely(const Cell& cell, Precise& precise, Vector<do
       });
 }
 
-void FaceBuilder::build_precisely(Index element, std::vector<Link>& out) {
+template <class Real>
+void FaceBuilder::build_with(SideCell<Real>& side, VertexCell<Real>& vertex, Index element, std::vector<Link>& out) {
   find_candidates(element, {});
   const Instance& in = sites_.instance();
   const Point base = in.vertices()[in.is_side(element) ? in.ends(element).from : in.vertex_of(element)];
   if (in.is_side(element)) {
-    precise_side_.start(element);
-    gather_precisely(side_, precise_side_, {base.x, base.y});
-    write(precise_side_, out);
+    side.start(element);
+    gather_precisely(side_, side, {base.x, base.y});
+    write(side, out);
   } else {
-    precise_vertex_.start(in.vertex_of(element));
-    gather_precisely(vertex_, precise_vertex_, {base.x, base.y});
-    write(precise_vertex_, out);
+    vertex.start(in.vertex_of(element));
+    gather_precisely(vertex_, vertex, {base.x, base.y});
+    write(vertex, out);
   }
+}
+
+void FaceBuilder::build_precisely(Index element, Precision precision, std::vector<Link>& out) {
+  if (precision == Precision::quadruple) return build_with(precise_side_, precise_vertex_, element, out);
+  SideCell<wide> side(sites_);
+  VertexCell<wide> vertex(sites_);
+  build_with(side, vertex, element, out);
 }
 
 template <class Real>

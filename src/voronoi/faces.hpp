@@ -37,14 +37,17 @@ class FaceBuilder {
   /// Appends the face of an element in double precision. Returns false if it is certainly wrong: take build_precisely.
   /// `hints`: likely neighbours. Sides should come in order.
   bool build(Index element, std::span<const Index> hints, std::vector<Link>& out);
-  /// The same in quadruple precision of the moved vertices, among the sites that come near in double precision.
-  void build_precisely(Index element, std::vector<Link>& out);
+  enum class Precision : char { twofold = 0, quadruple = 1, widest = 2 };
+  /// The same in quadruple or 320-bit precision of the moved vertices, among the sites that come near in double precision.
+  void build_precisely(Index element, Precision precision, std::vector<Link>& out);
 
   FaceCounters counters;
 
  private:
   template <class Cell>
   void gather(Cell& cell, Index around, Vector<double> base, Vector<double> from);
+  template <class Real>
+  void build_with(SideCell<Real>& side, VertexCell<Real>& vertex, Index element, std::vector<Link>& out);
   template <class Cell, class Precise>
   void gather_precisely(const Cell& cell, Precise& precise, Vector<double> base);
   bool find_candidates(Index element, std::span<const Index> hints);

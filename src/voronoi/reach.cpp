@@ -105,8 +105,8 @@ bool Reach::meets(const SiteBoxes::Box& box) const {
     const Vector<double> v = c - s.origin, n = s.normal;
     const double up = dot(v, n), half = std::abs(n.x) * h.x + std::abs(n.y) * h.y;
     if (up + half < -slack_ || up - half > s.height) continue;
-    const double along = n.x * v.y - n.y * v.x, wide = std::abs(n.y) * h.x + std::abs(n.x) * h.y;
-    if (along + wide >= s.low && along - wide <= s.high) return true;
+    const double along = n.x * v.y - n.y * v.x, half_width = std::abs(n.y) * h.x + std::abs(n.x) * h.y;
+    if (along + half_width >= s.low && along - half_width <= s.high) return true;
   }
   const auto highest = [&](Vector<double> d) { return dot(d, c) + std::abs(d.x) * h.x + std::abs(d.y) * h.y; };
   for (const Sector& s : sectors_) {
@@ -116,6 +116,8 @@ bool Reach::meets(const SiteBoxes::Box& box) const {
 }
 
 template void Reach::update(const SideCell<double>&, const SideCell<double>&, Vector<double>);
+template void Reach::update(const SideCell<wide>&, const SideCell<double>&, Vector<double>);
+template void Reach::update(const VertexCell<wide>&, const VertexCell<double>&, Vector<double>);
 template void Reach::update(const SideCell<quad>&, const SideCell<double>&, Vector<double>);
 template void Reach::update(const VertexCell<double>&, const VertexCell<double>&, Vector<double>);
 template void Reach::update(const VertexCell<quad>&, const VertexCell<double>&, Vector<double>);

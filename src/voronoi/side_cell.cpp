@@ -8,9 +8,9 @@ void SideCell<Real>::start(Index element) {
   ends_ = sites_.instance().ends(element);
   const Vector<Real> d = sites_.direction<Real>(element >> 1);
   u_ = (element & 1u) ? Vector<Real>{-d.x, -d.y} : d;
-  length_ = zone::length(sites_.instance().template difference<Real>(ends_.to, ends_.from));
+  length_ = magnitude(sites_.template difference<Real>(ends_.to, ends_.from));
   uncertain_ = false;
-  corner_[0] = corner_[1] = {};
+  corner_[0] = corner_[1] = Curve();
   Curve horizon;
   horizon.is_line = true;
   horizon.at = {0, Real(sites_.horizon())};
@@ -135,5 +135,6 @@ void SideCell<Real>::add_segment(Index segment) {
 
 template class SideCell<double>;
 template class SideCell<quad>;
+template class SideCell<wide>;
 
 }  // namespace krepl::voronoi

@@ -11,6 +11,8 @@ template <class Real>
 constexpr double narrow = 0x1p-48;
 template <>
 constexpr double narrow<quad> = 0x1p-108;
+template <>
+constexpr double narrow<wide> = 0x1p-300;
 
 /// 1 - n.y of a unit vector, without cancellation.
 template <class Real>
@@ -45,7 +47,7 @@ Stretches<Real> nearer_point(const SideCurve<Real>& b, const SideCurve<Real>& a)
   const bool b_low = b.at.y != a.at.y ? b.at.y < a.at.y : b.label < a.label;
   const Vector<Real> p = b_low ? b.at : a.at, q = b_low ? a.at : b.at;
   const Vector<Real> d = q - p;
-  const Real root = kernel::square_root(p.y * q.y) * zone::length(d);
+  const Real root = kernel::square_root(p.y * q.y) * magnitude(d);
   const Real half = p.y * d.x, last = -p.y * (q.y * d.y + d.x * d.x);
   const Real t = half > 0 ? -(half + root) : root - half;
   Real low = d.y > 0 ? t / d.y : (t < 0 ? -infinite<Real>() : infinite<Real>()), high = last / t;
@@ -144,7 +146,7 @@ class SideCell {
   Index corner(int end) const { return corner_[end].label; }
   /// A vertex in the side's frame.
   Vector<Real> locate(Index vertex) const {
-    return rotate(sites_.instance().template difference<Real>(vertex, ends_.from));
+    return rotate(sites_.template difference<Real>(vertex, ends_.from));
   }
   Vector<Real> rotate(Vector<Real> v) const { return {dot(v, u_), v.x * u_.y - v.y * u_.x}; }
   /// From the frame to the plane, relative to the vertex the side starts from.
@@ -176,5 +178,6 @@ class SideCell {
 
 extern template class SideCell<double>;
 extern template class SideCell<quad>;
+extern template class SideCell<wide>;
 
 }  // namespace krepl::voronoi

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "krepl/context.hpp"
+#include "voronoi/wide.hpp"
 #include "zone/instance.hpp"
 
 namespace krepl::voronoi {
@@ -22,6 +23,10 @@ Real dot(Vector<Real> a, Vector<Real> b) {
 template <class Real>
 Real cross(Vector<Real> a, Vector<Real> b) {
   return a.x * b.y - a.y * b.x;
+}
+template <class Real>
+Real magnitude(Vector<Real> v) {
+  return kernel::square_root(v.x * v.x + v.y * v.y);
 }
 template <class Real>
 Vector<Real> operator-(Vector<Real> a, Vector<Real> b) {
@@ -51,6 +56,16 @@ class Sites {
   double horizon() const { return horizon_; }
   bool is_side(Index element) const { return in_.is_side(element); }
 
+  /// to - from: of the unmoved vertices in double precision, of the moved ones otherwise.
+  template <class Real>
+  Vector<Real> difference(Index to, Index from) const {
+    if constexpr (std::is_same_v<Real, wide>) {
+      const auto p = in_.moved(to), q = in_.moved(from);
+      return {widened(p.x) - widened(q.x), widened(p.y) - widened(q.y)};
+    } else {
+      return in_.difference<Real>(to, from);
+    }
+  }
   /// Unit vector from a to b of a segment.
   template <class Real>
   Vector<Real> direction(Index segment) const {
@@ -70,11 +85,15 @@ class Sites {
   Index owner(Index vertex) const { return owner_[vertex]; }
 
  private:
+  static wide widened(quad x) {  // three doubles hold all bits
+    const double high = double(x), middle = double(x - high), low = double(x - high - middle);
+    return wide(high) + wide(middle) + wide(low);
+  }
   template <class Real>
   Vector<Real> unit(Index segment) const {
     const auto s = in_.site(segment);
-    const Vector<Real> d = in_.difference<Real>(s.b, s.a);
-    const Real l = zone::length(d);
+    const Vector<Real> d = difference<Real>(s.b, s.a);
+    const Real l = magnitude(d);
     return {d.x / l, d.y / l};
   }
 

@@ -5,7 +5,7 @@ namespace {
 
 template <class Real>
 Vector<Real> unit(Vector<Real> v) {
-  const Real l = zone::length(v);
+  const Real l = magnitude(v);
   return {v.x / l, v.y / l};
 }
 
@@ -14,6 +14,8 @@ template <class Real>
 constexpr double thin = 0x1p-40;
 template <>
 constexpr double thin<quad> = 0;
+template <>
+constexpr double thin<wide> = 0;
 
 /// The vertex's bisector with a point q, mirrored: a centre in direction u sees q in the direction that u's mirror
 /// image is.
@@ -126,7 +128,7 @@ void VertexCell<Real>::add_line(Index segment, Vector<Real> a, Vector<Real> b) {
   const Real to_a = dot(right, a), to_b = dot(right, b);
   const bool a_nearer = dot(a, a) < dot(b, b);
   const Real signed_distance = a_nearer ? to_a : to_b;
-  const Real nearest = std::min(dot(a, a), dot(b, b)), error = narrow<Real> * (zone::length(a) + zone::length(b));
+  const Real nearest = std::min(dot(a, a), dot(b, b)), error = narrow<Real> * (magnitude(a) + magnitude(b));
   if (kernel::absolute(signed_distance) <= error) {
     const bool beside = dot(a, d) <= 0 && dot(b, d) >= 0;
     if (beside || nearest <= 2 * error * Real(sites_.horizon())) uncertain_ = true;
@@ -157,5 +159,6 @@ void VertexCell<Real>::add_line(Index segment, Vector<Real> a, Vector<Real> b) {
 
 template class VertexCell<double>;
 template class VertexCell<quad>;
+template class VertexCell<wide>;
 
 }  // namespace krepl::voronoi

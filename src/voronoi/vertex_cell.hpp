@@ -122,7 +122,7 @@ class VertexCell {
     const auto s = sites_.instance().site(site);
     return s.a == vertex_ || s.b == vertex_;
   }
-  Vector<Real> locate(Index vertex) const { return sites_.instance().template difference<Real>(vertex, vertex_); }
+  Vector<Real> locate(Index vertex) const { return sites_.template difference<Real>(vertex, vertex_); }
 
  private:
   void add_chart(Vector<Real> middle, Vector<Real> low, Vector<Real> high);
@@ -140,5 +140,6 @@ class VertexCell {
 
 extern template class VertexCell<double>;
 extern template class VertexCell<quad>;
+extern template class VertexCell<wide>;
 
 }  // namespace krepl::voronoi
