@@ -160,7 +160,8 @@ class Settling {
       // The least precise first: the others may then agree.
       int rung = 0;
       std::vector<Index> faces;
-      for (; rung < 2 && faces.empty(); ++rung) faces = marked([&](Index e) { return again_[e] && precise_[e] == rung; });
+      for (; rung < 2 && faces.empty(); ++rung)
+        faces = marked([&](Index e) { return again_[e] && precise_[e] == rung; });
       if (faces.empty()) {
         if (!reconcile(all_marked)) return disagreement(sites_, all_marked[0]);
       } else {

@@ -38,7 +38,8 @@ class FaceBuilder {
   /// `hints`: likely neighbours. Sides should come in order.
   bool build(Index element, std::span<const Index> hints, std::vector<Link>& out);
   enum class Precision : char { twofold = 0, quadruple = 1, widest = 2 };
-  /// The same in quadruple or 320-bit precision of the moved vertices, among the sites that come near in double precision.
+  /// The same in quadruple or 320-bit precision of the moved vertices, among the sites that come near in double
+  /// precision.
   void build_precisely(Index element, Precision precision, std::vector<Link>& out);
 
   FaceCounters counters;

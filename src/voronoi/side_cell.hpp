@@ -145,9 +145,7 @@ class SideCell {
   /// itself, even if that stretch is too short to be seen. None if there is no corner.
   Index corner(int end) const { return corner_[end].label; }
   /// A vertex in the side's frame.
-  Vector<Real> locate(Index vertex) const {
-    return rotate(sites_.template difference<Real>(vertex, ends_.from));
-  }
+  Vector<Real> locate(Index vertex) const { return rotate(sites_.template difference<Real>(vertex, ends_.from)); }
   Vector<Real> rotate(Vector<Real> v) const { return {dot(v, u_), v.x * u_.y - v.y * u_.x}; }
   /// From the frame to the plane, relative to the vertex the side starts from.
   Vector<Real> plane(Vector<Real> p) const { return {p.x * u_.x + p.y * u_.y, p.x * u_.y - p.y * u_.x}; }

@@ -42,7 +42,9 @@ Result<VoronoiDiagram> VoronoiDiagram::build(std::shared_ptr<const Network> netw
   if (!diagram) return diagram.error();
   parts->diagram = std::move(*diagram);
   const auto& c = parts->diagram.counters;
-  parts->counters = {c.faces, c.candidates, c.faces_in_quadruple, c.vertices_in_quadruple, c.faces_in_widest, c.links_reconciled, c.rounds};
+  parts->counters = {
+      c.faces, c.candidates, c.faces_in_quadruple, c.vertices_in_quadruple, c.faces_in_widest, c.links_reconciled,
+      c.rounds};
   return VoronoiDiagram(std::move(parts));
 }
 

@@ -6,7 +6,8 @@
 
 namespace krepl::voronoi {
 
-/// 320 bits: the last rung of the ladder, for what the move of vertices, 2^-72 of the extent, decides only in its third power.
+/// 320 bits: the last rung of the ladder, for what the move of vertices, 2^-72 of the extent, decides only in its third
+/// power.
 using wide = boost::multiprecision::number<
     boost::multiprecision::cpp_bin_float<320, boost::multiprecision::digit_base_2, void, std::int32_t>,
     boost::multiprecision::et_off>;

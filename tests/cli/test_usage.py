@@ -79,9 +79,9 @@ class Usage(support.CliTest):
                        "buffer", "line.wkt", "-", "--radius", "1", "--format", "gpkg")
 
     def test_engines_of_other_versions(self):
-        self.fail_with(2, "engine 'voronoi' is not in this version; give --engine auto or intervals",
-                       "buffer", "line.wkt", "out.gpkg", "--radius", "1", "--engine", "voronoi")
-        self.fail_with(2, "engine 'magic' is unknown; give --engine auto or intervals",
+        self.fail_with(2, "engine 'sweep' is not in this version; give --engine auto, intervals or voronoi",
+                       "buffer", "line.wkt", "out.gpkg", "--radius", "1", "--engine", "sweep")
+        self.fail_with(2, "engine 'magic' is unknown; give --engine auto, intervals or voronoi",
                        "buffer", "line.wkt", "out.gpkg", "--radius", "1", "--engine", "magic")
 
     def test_threads(self):
