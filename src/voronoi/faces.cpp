@@ -61,7 +61,9 @@ void FaceBuilder::gather(Cell& cell, Index around, Vector<double> base, Vector<d
     const auto end = candidates_.begin() + std::ptrdiff_t(seeds);
     return std::find(candidates_.begin(), end, site) == end && take(site);
   };
-  if (reach_.is_open()) {
+  // A face that reaches far would otherwise be cut by all that lies near before it is cut by what faces it.
+  const auto& half = reach_.window().half;
+  if (reach_.is_open() || std::max(half.x, half.y) > 8 * cell.size()) {
     boxes_.search_nearest(from, memory_, window, meets, visit);
   } else {
     boxes_.search_near(from, memory_, window, meets, visit);

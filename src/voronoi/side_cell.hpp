@@ -136,6 +136,8 @@ class SideCell {
 
   Index element() const { return element_; }
   Real length() const { return length_; }
+  /// What counts as near, in a search.
+  Real size() const { return length_; }
   bool is_own(Index site) const { return site == element_ >> 1; }
   const std::vector<typename Envelope<Real, Curve>::Arc>& arcs() const { return envelope_.arcs(); }
   /// True if double precision cannot tell on which side of the base a site lies that matters; neighbours might not
