@@ -59,10 +59,7 @@ Index Envelope<Real>::winner(Point p, std::span<const Index> candidates, bool fi
     if (patches_.contains(c, p) && patches_.extended_height(c, p) >= lowest) equal.push_back(c);
   }
   if (finely) return finer(equal)->winner({p.x, p.y}, equal);
-  return *std::min_element(equal.begin(), equal.end(), [&](Index c, Index d) {
-    const Patch &f = patches_[c], &g = patches_[d];
-    return f.kind != g.kind ? f.kind > g.kind : f.feature < g.feature;  // face, edge, vertex
-  });
+  return *std::min_element(equal.begin(), equal.end(), [&](Index c, Index d) { return precedes(c, d); });
 }
 
 template <class Real>

@@ -54,8 +54,8 @@ class Envelope {
   /// True if R is at least the extent.
   bool is_far() const { return far_; }
 
-  /// Highest candidate at p, among equals a face before an edge before a vertex, then the lowest feature number; none
-  /// if no patch lies over p.
+  /// Highest candidate at p, among equals a face before an edge before a vertex, then the longest edge, then the lowest
+  /// feature number; none if no patch lies over p.
   Index winner(Point p, std::span<const Index> candidates) const { return winner(p, candidates, finer_ != nullptr); }
 
   /// Appends to `out` the candidates that may appear in the box: those whose domain meets it and that are not hidden
@@ -151,6 +151,7 @@ class Envelope {
   std::optional<Wall> wall_through(Index patch, const BoxFrame& box) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
   Real axis_height(Index edge, Point p) const;
+  bool precedes(Index a, Index b) const;
   bool lies_in(Index lower, Index upper) const;
   bool hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up = 0) const;
   bool hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const;
