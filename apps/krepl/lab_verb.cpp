@@ -8,6 +8,7 @@
 #include "input/terrain_reader.hpp"
 #include "lab/experiments.hpp"
 #include "output/output_stream.hpp"
+#include "output_target.hpp"
 #include "stopwatch.hpp"
 #include "terrain_options.hpp"
 #include "verbs.hpp"
@@ -29,19 +30,22 @@ struct LabOptions {
   TerrainOptions terrain;
 };
 
-/// The directory that takes the files; made if it is not there, but not those above it.
-Status make_directory(const std::string& path) {
+/// The directory that takes the files: there, or to be made in one that is.
+Status check_directory(std::string path) {
+  while (path.size() > 1 && path.back() == '/') path.pop_back();
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) return std::monostate{};
+  if (std::filesystem::is_directory(path, error))
+    return check_target((std::filesystem::path(path) / "krepl").string(), {});
   if (std::filesystem::exists(path, error))
     return Error{ErrorCode::io, "not a directory", "", "give the name of a directory for the files"};
-  std::filesystem::create_directory(path, error);
-  if (error)
-    return Error{ErrorCode::io, "cannot be made: " + error.message(), "", "give a directory in one that is there"};
-  return std::monostate{};
+  return check_target(path, {});
 }
 
 Status write_files(const std::string& directory, const Report& report) {
+  std::error_code error;
+  std::filesystem::create_directory(directory, error);
+  if (error)
+    return Error{ErrorCode::io, "cannot be made: " + error.message(), "", "give a directory in one that is there"};
   for (const lab::Exhibit& file : lab::files_of(report)) {
     auto stream = output::OutputStream::open((std::filesystem::path(directory) / file.file_name).string());
     if (!stream) return stream.error();
@@ -51,10 +55,10 @@ Status write_files(const std::string& directory, const Report& report) {
   return std::monostate{};
 }
 
-/// Before a long computation rather than after it.
+/// Runs an experiment, prints what it found, and writes its files if a directory was given.
 int run(const LabOptions& options, Session& session, const std::function<Result<Report>()>& experiment) {
-  if (!options.output.empty()) {
-    if (Status made = make_directory(options.output); !made) return session.fail(options.output, made.error());
+  if (!options.output.empty()) {  // before a long computation rather than after it
+    if (Status ready = check_directory(options.output); !ready) return session.fail(options.output, ready.error());
   }
   const Stopwatch watch;
   const Result<Report> report = experiment();
@@ -150,7 +154,7 @@ void add_experiments(Menu& menu) {
                                                                   session.context("computing"));
                               });
                             });
-  Menu::add_sizes(*verb, *table, {8, 16, 32, 64}, "Triangles");
+  Menu::add_sizes(*verb, *table, {8, 16, 32, 64, 128}, "Triangles");
   Menu::add_chance(*verb, *table, 60);
   verb->add_option("--count", table->count, "Terrains in all")->capture_default_str()->type_name("N");
   auto search = std::make_shared<LabOptions>();

@@ -25,10 +25,11 @@ struct Frame {
   }
   double x(double at) const { return margin + (at - min_x) * scale(); }
   double y(double at) const { return title + margin + (max_y - at) * scale(); }
-  std::string place(double at_x, double at_y) const { return fmt::format("{:.2f} {:.2f}", x(at_x), y(at_y)); }
+  std::string place(double at_x, double at_y) const { return fmt::format("{:.1f} {:.1f}", x(at_x), y(at_y)); }
 
   std::string head(const std::string& text, const std::string& style) const {
-    const double width = 2 * margin + (max_x - min_x) * scale(),
+    // At least as wide as the title.
+    const double width = 2 * margin + std::max((max_x - min_x) * scale(), 9 * double(text.size())),
                  height = title + 2 * margin + (max_y - min_y) * scale();
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" "

@@ -12,7 +12,7 @@ Construction crossing_needles() {
 
 Construction crossing_blades() {
   Construction c;
-  c.add({-20, 0, 0}, {20, 0, 0}, {0, -30, 0});
+  c.add({-8, 0, 0}, {8, 0, 0}, {0, -8, 0});
   c.add({-6, 0.125, 0}, {6, 0.125, 0}, {0, 0.15625, 0.625});
   c.add({-4.5, 0.0625, 0.25}, {4.5, 0.0625, 0.25}, {0, 0.09375, 0.25});
   return c;

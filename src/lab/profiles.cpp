@@ -31,7 +31,7 @@ ProfileConstruction pit(std::size_t n) {
   // Ends at the same height, 1 apart; all between is below the disk that touches both.
   std::vector<Point> points = half_circle(n, 1, -1);
   const double left = points.front().x, right = points.back().x;
-  for (Point& p : points) p = {(p.x - left) / (right - left), 8 * p.y};
+  for (Point& p : points) p = {(p.x - left) / (right - left), 3 * p.y};
   points.front().y = points.back().y = 0;
   return {"pit", "3 vertices, the fewest", std::move(points), 1, 3, 1};
 }
