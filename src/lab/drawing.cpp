@@ -41,9 +41,13 @@ struct Frame {
   }
 };
 
-/// Points of an edge along half-edge 2e; few where it is straight.
-std::vector<Point3> course(const Surface& surface, Index e) {
-  return surface.curve(e, surface.edge(e).curve == Surface::Curve::line ? 3 : 17);
+/// Points of an edge along half-edge 2e, one every eight units of the picture.
+std::vector<Point3> course(const Surface& surface, Index e, const Frame& frame) {
+  std::vector<Point3> points = surface.curve(e, 3);
+  if (surface.edge(e).curve == Surface::Curve::line) return points;
+  double length = 0;
+  for (int k = 0; k < 2; ++k) length += std::hypot(points[k + 1].x - points[k].x, points[k + 1].y - points[k].y);
+  return surface.curve(e, std::clamp(int(length * frame.scale() / 8) + 2, 3, 65));
 }
 
 void put_loop(std::string& path, const Surface& surface, Index first, const Frame& frame) {
@@ -51,7 +55,7 @@ void put_loop(std::string& path, const Surface& surface, Index first, const Fram
   Index h = first;
   char command = 'M';
   do {
-    std::vector<Point3> points = course(surface, Subdivision::edge(h));
+    std::vector<Point3> points = course(surface, Subdivision::edge(h), frame);
     if (h % 2 == 1) std::reverse(points.begin(), points.end());
     points.pop_back();
     for (const Point3& p : points) path += command + frame.place(p.x, p.y), command = 'L';
@@ -91,7 +95,7 @@ void put_edges(std::string& text, const Surface& surface, const Frame& frame) {
   for (Index e = 0; e < topology.edge_count(); ++e) {
     const Surface::EdgeKind kind = surface.edge(e).kind;
     std::string path;
-    for (const Point3& p : course(surface, e)) path += (path.empty() ? 'M' : 'L') + frame.place(p.x, p.y);
+    for (const Point3& p : course(surface, e, frame)) path += (path.empty() ? 'M' : 'L') + frame.place(p.x, p.y);
     text += fmt::format("<path class=\"{}\" d=\"{}\"/>\n", edge_class[int(kind)], path);
     if (kind == Surface::EdgeKind::valley) ++valleys[topology.origin[2 * e]], ++valleys[topology.origin[2 * e + 1]];
   }
@@ -138,7 +142,7 @@ std::string svg_of(const Surface& surface, const std::string& title) {
     frame.add(p.x, p.y);
   }
   for (Index e = 0; e < surface.subdivision().edge_count(); ++e) {
-    for (const Point3& p : course(surface, e)) frame.add(p.x, p.y);
+    for (const Point3& p : surface.curve(e, 17)) frame.add(p.x, p.y);
   }
   std::string text = frame.head(
       title,
