@@ -32,7 +32,8 @@ struct ConjectureOptions {
   double limit = 60;  ///< seconds of the clock for a terrain; what takes longer is counted as late
 };
 /// Conjecture 4.5.6: the greatest number of vertices against n lambda_2(n), by family of random terrains and n.
-/// Errors: options out of range (usage); cancelled. Terrains without a result are counted.
+/// Up to n = 32 a record counts only if both engines find it. Errors: options out of range (usage); cancelled. Terrains
+/// without a result are counted.
 Result<Report> conjecture_experiment(const ConjectureOptions& options, const Context& context);
 
 struct SearchOptions {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <set>
 
-#include "krepl/incremental.hpp"
 #include "lab/count_columns.hpp"
 #include "lab/drawing.hpp"
 #include "lab/experiments.hpp"
@@ -16,14 +15,6 @@ namespace krepl::lab {
 namespace {
 
 using Index = Surface::Index;
-
-Result<Surface> incremental_surface_of(const Construction& construction, const Context& context) {
-  auto terrain = terrain_of(construction);
-  if (!terrain) return terrain.error();
-  IncrementalOptions options;
-  options.radius = construction.radius;
-  return compute_surface_incremental(*terrain, options, context);
-}
 
 /// Numbers of the construction's triangles that have all corners of a feature.
 std::vector<std::size_t> triangles_with(const Surface& surface, Index feature, const Construction& c) {

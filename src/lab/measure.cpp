@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "kernel/parallel.hpp"
+#include "krepl/incremental.hpp"
 
 namespace krepl::lab {
 
@@ -15,6 +16,14 @@ Result<Surface> surface_of(const Construction& construction, const Context& cont
   auto terrain = terrain_of(construction);
   if (!terrain) return terrain.error();
   return compute_surface(*terrain, {construction.radius}, context);
+}
+
+Result<Surface> incremental_surface_of(const Construction& construction, const Context& context) {
+  auto terrain = terrain_of(construction);
+  if (!terrain) return terrain.error();
+  IncrementalOptions options;
+  options.radius = construction.radius;
+  return compute_surface_incremental(*terrain, options, context);
 }
 
 struct TimeLimit::State {

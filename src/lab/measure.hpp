@@ -28,6 +28,9 @@ class TimeLimit {
   std::unique_ptr<State> state_;
 };
 
+/// The same by the incremental engine, for a second opinion. Error too if there are more than 1000 triangles.
+Result<Surface> incremental_surface_of(const Construction& construction, const Context& context);
+
 /// Calls work(index, context of that computation) for all of [0, count) on context.threads threads. Each computation is
 /// cancelled after `limit` seconds of the clock (0: never). Results belong in places fixed by the index: below the
 /// limit nothing depends on the number of threads. False if the whole was cancelled.
