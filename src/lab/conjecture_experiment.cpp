@@ -116,8 +116,10 @@ void append_rows(Report& report, const std::vector<Group>& groups) {
                           "terrains",
                           "late",
                           "failed",
+                          "engines_differ",
+                          "confirmed",
                           "most_vertices",
-                          "most_triple_contacts",
+                          "triple_contacts",
                           "vertices/n_lambda_2"};
   for (const Group& g : groups) {
     report.table.rows.push_back({std::string(g.family->name), std::string(g.family->terrain ? "yes" : "no"),
