@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   krepl::app::add_verify_verb(program, session);
   krepl::app::add_info_verb(program, session);
   krepl::app::add_view_verb(program, session);
+  krepl::app::add_lab_verb(program, session);
   add_footer(program);
   try {
     program.parse(argc, argv);
