@@ -184,16 +184,16 @@ class Ranking {
                   left = best_in_[start] == none ? none : h_.sub_river[best_in_[start]];
       above[s] = river.downstream != none ? river.downstream : left != s ? left : none;
     }
+    std::vector<Index> walk(count, none);  // the last one that came by
     for (Index s = 0; s < count; ++s) {
-      // Equal lengths in a braid can make two sub-rivers each other's: then the longer (first) one is the stem.
       std::vector<Index> path;
       Index at = s;
-      while (h_.sub_rivers[at].stem == none && above[at] != none &&
-             std::find(path.begin(), path.end(), at) == path.end()) {
+      for (; h_.sub_rivers[at].stem == none && above[at] != none && walk[at] != s; at = above[at]) {
+        walk[at] = s;
         path.push_back(at);
-        at = above[at];
       }
       if (h_.sub_rivers[at].stem == none) {
+        // Equal lengths in a braid can make two sub-rivers each other's: then the longest (first) one is the stem.
         const auto repeated = std::find(path.begin(), path.end(), at);
         if (repeated != path.end()) at = *std::min_element(repeated, path.end());
         h_.sub_rivers[at].stem = at;
