@@ -86,6 +86,7 @@ void add_buffer_verb(CLI::App& program, Session& session);
 void add_height_verb(CLI::App& program, Session& session);
 void add_info_verb(CLI::App& program, Session& session);
 void add_profile_verb(CLI::App& program, Session& session);
+void add_rivers_verb(CLI::App& program, Session& session);
 void add_terrain_verb(CLI::App& program, Session& session);
 void add_verify_verb(CLI::App& program, Session& session);
 void add_view_verb(CLI::App& program, Session& session);
