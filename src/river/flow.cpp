@@ -67,10 +67,15 @@ std::vector<Index> distance_ranks(const Reaches& reaches, const std::vector<Inde
 }  // namespace
 
 OutletGuess::OutletGuess(const Reaches& reaches, const Edges& edges)
-    : reaches_(reaches), arms_(reaches.node.size()), degree_(reaches.node.size(), 0), sum_(reaches.node.size()) {
+    : reaches_(reaches),
+      arms_(reaches.node.size()),
+      degree_(reaches.node.size(), 0),
+      arrives_(reaches.node.size(), false),
+      sum_(reaches.node.size()) {
   Parts parts(reaches.node.size());
   for (const Reaches::Reach& reach : reaches.reaches) {
     ++degree_[reach.from], ++degree_[reach.to];
+    arrives_[reach.to] = true;
     if (!parts.join(reach.from, reach.to)) continue;
     const Point out = heading(reach, false, edges), back = heading(reach, true, edges);
     arms_[reach.from].push_back({reach.to, out, back});
@@ -80,7 +85,8 @@ OutletGuess::OutletGuess(const Reaches& reaches, const Edges& edges)
   }
 }
 
-/// From a node towards the place a quarter of the reach away: the first bend may be a quirk of digitising.
+/// From a node towards the place a tenth of the reach away: the first vertex may be a quirk of digitising, and bends
+/// further off say nothing of the confluence.
 Point OutletGuess::heading(const Reaches::Reach& reach, bool at_end, const Edges& edges) const {
   const std::size_t count = reach.last - reach.first;
   const auto place = [&](std::size_t i) {
@@ -92,7 +98,7 @@ Point OutletGuess::heading(const Reaches::Reach& reach, bool at_end, const Edges
     const Point p = place(i), q = place(i - 1);
     way += std::hypot(p.x - q.x, p.y - q.y);
     const double dx = p.x - start.x, dy = p.y - start.y, d = std::hypot(dx, dy);
-    if ((way >= reach.length / 4 || i + 1 == count) && d > 0) return {dx / d, dy / d};
+    if ((way >= reach.length / 10 || i + 1 == count) && d > 0) return {dx / d, dy / d};
   }
   return {};
 }
@@ -119,9 +125,11 @@ Index OutletGuess::outlet(const std::vector<Index>& nodes) {
     const Visit v = stack.back();
     stack.pop_back();
     const bool candidate = !has_ends || degree_[v.node] == 1;
-    if (candidate && (best == none || v.score > best_score || (v.score == best_score && v.node < best))) {
-      best = v.node, best_score = v.score;
-    }
+    const auto better = [&] {
+      if (best == none || v.score != best_score) return best == none || v.score > best_score;
+      return arrives_[v.node] != arrives_[best] ? bool(arrives_[v.node]) : v.node < best;
+    };
+    if (candidate && better()) best = v.node, best_score = v.score;
     for (const Arm& arm : arms_[v.node]) {
       if (arm.node == v.from) continue;
       stack.push_back({arm.node, v.node, v.score - gain(arm.node, arm.heading_there) + gain(v.node, arm.heading)});

@@ -50,12 +50,12 @@ class OutletGuess {
   };
   Point heading(const Reaches::Reach& reach, bool at_end, const Edges& edges) const;
   double gain(Index node, Point heading_down) const;
-  void span(Index root);
 
   const Reaches& reaches_;
   std::vector<std::vector<Arm>> arms_;  // of the spanning forest
   std::vector<std::uint32_t> degree_;
-  std::vector<Point> sum_;  // of the headings of the arms
+  std::vector<bool> arrives_;  // a reach was digitised to the node
+  std::vector<Point> sum_;     // of the headings of the arms
 };
 
 }  // namespace krepl::river
