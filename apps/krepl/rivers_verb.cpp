@@ -44,7 +44,7 @@ Result<Point> parse_place(const std::string& text) {
     if (y.ec == std::errc{} && y.ptr == last) return p;
   }
   return Error{ErrorCode::usage, "--outlet '" + text + "' is not a place", "",
-               "give X,Y in the coordinate system of the result, or guess"};
+               "give X,Y in the coordinates of the file, or guess"};
 }
 
 Status take_outlets(const RiversOptions& options, RiverOptions& river) {
@@ -223,7 +223,9 @@ int run_rivers(const RiversOptions& options, Session& session) {
     return session.fail(options.output, target.error());
 
   const std::string in_name = input_name(options.input.path);
-  Result<input::NetworkData> data = input::read_network(options.input, session.context("reading"));
+  input::NetworkRequest request = options.input;
+  request.places = plan->river.outlets;
+  Result<input::NetworkData> data = input::read_network(request, session.context("reading"));
   if (!data) return session.fail(in_name, data.error());
   for (const std::string& note : data->notes) session.note(in_name, note);
   if (!options.flow_field.empty()) {
@@ -236,6 +238,8 @@ int run_rivers(const RiversOptions& options, Session& session) {
     }
     plan->river.against = std::move(flow->against);
   }
+
+  plan->river.outlets = data->places;
 
   Stopwatch building;
   Result<RiverNetwork> rivers = RiverNetwork::build(*data->network, plan->river, session.context("joining"));
