@@ -21,7 +21,7 @@ using output::RiverPart;
 
 struct RiversOptions {
   input::NetworkRequest input;
-  std::string output, format, flow_field, snap, radius, zones, max_error;
+  std::string output, format, flow_field, snap, grid, radius, zones, max_error;
   std::vector<std::string> outlets;
   bool reaches = false;
 };
@@ -96,6 +96,11 @@ Result<RiversPlan> make_plan(const RiversOptions& options) {
     Result<double> snap = parse_positive("--snap", options.snap);
     if (!snap) return snap.error();
     plan.river.snap = *snap;
+  }
+  if (!options.grid.empty()) {
+    Result<double> grid = parse_positive("--grid", options.grid);
+    if (!grid) return grid.error();
+    plan.river.grid = *grid;
   }
   Result<output::ZoneFormat> format = output::find_zone_format(options.output, options.format);
   if (!format)
@@ -278,6 +283,9 @@ void add_rivers_verb(CLI::App& program, Session& session) {
                    "Field that says whether a line was digitised with the water (1, with) or against it (-1, against)")
       ->type_name("NAME");
   verb->add_option("--snap", options->snap, "Free ends of lines this near to another line are moved to it")
+      ->type_name("LENGTH");
+  verb->add_option("--grid", options->grid,
+                   "Vertices and crossings are rounded to a grid of this pitch at most (default: finest)")
       ->type_name("LENGTH");
   verb->add_flag("--reaches", options->reaches, "A line for each reach from node to node, not for each sub-river");
   verb->add_option("--radius", options->radius, "Write zones of this radius in place of lines")->type_name("R");

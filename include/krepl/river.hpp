@@ -29,6 +29,9 @@ struct RiverOptions {
   /// A free end of a line that is at most this far from another line (in the unit of the coordinates, 0 or more) is
   /// moved to the nearest vertex there, or to the line where no vertex is so near. 0 joins what touches already.
   double snap = 0;
+  /// Vertices and crossings are rounded to a grid of at most this pitch (a power of two), so what is nearer together becomes
+  /// one. 0, or less than the distance of doubles at the largest coordinate: that distance, which moves hardly anything.
+  double grid = 0;
 };
 
 /// What building a RiverNetwork changed, dropped and found.
@@ -47,7 +50,7 @@ struct RiverReport {
   std::size_t opposed_duplicates = 0;  ///< of them, those that ran the other way; the first one in the input counts
   double duplicate_length = 0;
   double largest_move = 0;  ///< of a vertex or crossing: rounding to the grid, and snapping
-  double grid = 0;          ///< its pitch: the distance of doubles at the input's largest coordinate
+  double grid = 0;          ///< its pitch
   // Findings.
   std::size_t components = 0;  ///< connected parts
   std::size_t guessed_outlets = 0;
@@ -66,8 +69,8 @@ struct RiverReport {
 /// but for a loop, which ends where it began. Every reach belongs to exactly one sub-river.
 ///
 /// Any lines will do: crossing, overlapping, repeated, looping, disconnected, braided, with many outlets. Lines are cut
-/// where they cross or touch; vertices stay where they are but for rounding to a grid (RiverReport::grid) and for the
-/// ends of lines within RiverOptions::snap. A cut segment is within RiverReport::grid of what it was.
+/// where they cross or touch; vertices stay where they are but for rounding to a grid (RiverReport::grid) and for the ends of lines
+/// within RiverOptions::snap. A cut segment is within RiverReport::grid of what it was.
 class RiverNetwork {
  public:
   using Index = std::uint32_t;
@@ -90,8 +93,8 @@ class RiverNetwork {
     /// carries its river's order, but does not raise any order further down, so that a braid that unites again stays
     /// what it was.
     std::uint32_t order;
-    bool
-        closes_cycle;  ///< left out when lengths and orders are told, so that there is no cycle; a sub-river of its own
+    /// Left out when lengths and orders are told, so that there is no cycle; a sub-river of its own.
+    bool closes_cycle;
   };
 
   struct SubRiver {
@@ -104,7 +107,7 @@ class RiverNetwork {
     std::int64_t feature;             ///< the input feature that most of it comes from
   };
 
-  /// Errors: no line at all; `snap` negative or not finite; an outlet that is not finite; cancelled. O(n log n) but for
+  /// Errors: no line at all; `snap` or `grid` negative or not finite; an outlet that is not finite; cancelled. O(n log n) but for
   /// lines that cross massively (see docs/rivers.md). The same input gives the same result for any number of threads.
   static Result<RiverNetwork> build(const Network& network, const RiverOptions& options = {},
                                     const Context& context = {});

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/box_tree.hpp"
-#include "kernel/hilbert.hpp"
 #include "kernel/orientation.hpp"
 #include "kernel/parallel.hpp"
+#include "model/segment_tree.hpp"
 
 namespace krepl::model {
 namespace {
@@ -16,8 +15,6 @@ using Wide = __int128;  // products of two differences need 110 bits
 using UnsignedWide = unsigned __int128;
 
 constexpr std::size_t block_size = 4096;
-
-Point point(GridPoint p) { return {double(p.x), double(p.y)}; }
 
 /// (b - a) x (c - a)
 Wide cross(GridPoint a, GridPoint b, GridPoint c) {
@@ -58,53 +55,11 @@ std::int64_t between(std::int64_t a, std::int64_t b, UnsignedWide part, Unsigned
 
 bool cross_inside(GridPoint a, GridPoint b, GridPoint c, GridPoint d) {
   const auto opposite = [](int s, int t) { return s * t < 0; };
-  const Point p = point(a), q = point(b), r = point(c), s = point(d);
+  const Point p = SegmentTree::point(a), q = SegmentTree::point(b), r = SegmentTree::point(c),
+              s = SegmentTree::point(d);
   return opposite(kernel::orientation(p, q, r), kernel::orientation(p, q, s)) &&
          opposite(kernel::orientation(r, s, p), kernel::orientation(r, s, q));
 }
-
-/// The segments in an order that follows the plane, and a tree over their boxes.
-class SegmentTree {
- public:
-  SegmentTree(std::span<const GridPoint> vertices, std::span<const GridSegment> segments)
-      : order_(sorted(vertices, segments)), tree_(boxes(vertices, segments)) {}
-
-  Index segment(std::size_t place) const { return order_[place]; }
-  const kernel::BoxTree& tree() const { return tree_; }
-
-  static kernel::Box box(std::span<const GridPoint> vertices, GridSegment s) {
-    kernel::Box box;
-    box.add(point(vertices[s.a]));
-    box.add(point(vertices[s.b]));
-    return box;
-  }
-
- private:
-  static std::vector<Index> sorted(std::span<const GridPoint> vertices, std::span<const GridSegment> segments) {
-    kernel::Box all;
-    for (const GridSegment& s : segments) all.add(box(vertices, s));
-    const double scale = 65535 / std::max({1.0, all.max_x - all.min_x, all.max_y - all.min_y});
-    std::vector<std::pair<Index, Index>> keyed(segments.size());
-    for (Index i = 0; i < segments.size(); ++i) {
-      const kernel::Box b = box(vertices, segments[i]);
-      keyed[i] = {kernel::HilbertCurve::index(Index(((b.min_x + b.max_x) / 2 - all.min_x) * scale),
-                                              Index(((b.min_y + b.max_y) / 2 - all.min_y) * scale)),
-                  i};
-    }
-    std::sort(keyed.begin(), keyed.end());
-    std::vector<Index> order(segments.size());
-    std::transform(keyed.begin(), keyed.end(), order.begin(), [](const auto& entry) { return entry.second; });
-    return order;
-  }
-  std::vector<kernel::Box> boxes(std::span<const GridPoint> vertices, std::span<const GridSegment> segments) const {
-    std::vector<kernel::Box> result(segments.size());
-    for (std::size_t i = 0; i < segments.size(); ++i) result[i] = box(vertices, segments[order_[i]]);
-    return result;
-  }
-
-  std::vector<Index> order_;
-  kernel::BoxTree tree_;
-};
 
 /// Runs `work(i, results of i's block)` for all i and puts the blocks' results one after the other.
 template <class T, class Work>
@@ -155,7 +110,7 @@ std::optional<std::vector<Cut>> cuts(std::span<const GridPoint> vertices, std::s
                                      const SegmentTree& tree, const Context& context) {
   const auto add = [&](std::size_t v, std::vector<Cut>& found) {
     kernel::Box box;
-    box.add(point(vertices[v]));
+    box.add(SegmentTree::point(vertices[v]));
     tree.tree().visit_meeting(box, [&](std::size_t place) {
       const GridSegment s = segments[tree.segment(place)];
       if (passes_pixel(vertices[s.a], vertices[s.b], vertices[v])) found.push_back({tree.segment(place), Index(v)});

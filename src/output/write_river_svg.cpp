@@ -2,7 +2,7 @@
 // own.
 //
 // Coordinates are relative to the middle (viewers compute in single precision) and y points down; the root element's
-// data-origin tells the middle.
+// data-origin tells the middle. Seven digits, for it is a drawing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -67,7 +67,7 @@ Result<std::vector<std::string>> write_river_svg(const std::string& path, const 
                      0.6 + 0.7 * std::min<unsigned>(rivers.reaches()[r].order, 10), s + 1);
       char command = 'M';
       for (Point p : rivers.reach_line(r)) {
-        fmt::format_to(std::back_inserter(text), "{}{} {}", command, p.x - origin.x, 0.0 - (p.y - origin.y));
+        fmt::format_to(std::back_inserter(text), "{}{:.7g} {:.7g}", command, p.x - origin.x, 0.0 - (p.y - origin.y));
         command = 'L';
       }
       stream->write({text.data(), text.size()});

@@ -21,9 +21,10 @@ void weld(const std::vector<GridPoint>& points, std::vector<GridPoint>& vertices
 
 }  // namespace
 
-Lines take_lines(const Network& network, RiverReport& report) {
+Lines take_lines(const Network& network, double coarsest, RiverReport& report) {
   Lines lines;
   lines.pitch = network.resolution();
+  if (coarsest > lines.pitch) lines.pitch = std::ldexp(1.0, std::ilogb(coarsest));
   std::vector<GridPoint> grid(network.vertices().size());
   for (std::size_t v = 0; v < grid.size(); ++v) {
     const Point local = network.vertices()[v], p{network.origin().x + local.x, network.origin().y + local.y};

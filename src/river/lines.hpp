@@ -25,12 +25,13 @@ struct Lines {
   Point place(Index vertex) const { return {double(vertices[vertex].x) * pitch, double(vertices[vertex].y) * pitch}; }
 };
 
-/// Rounds the network's lines to the grid whose pitch is its resolution, and welds equal vertices.
-Lines take_lines(const Network& network, RiverReport& report);
+/// Rounds the network's lines to a grid, and welds equal vertices. The pitch is the network's resolution, or the
+/// greatest power of two that is not above `grid`.
+Lines take_lines(const Network& network, double grid, RiverReport& report);
 
 /// Moves free ends of lines to other lines within `reach`; see RiverOptions::snap. Ends are treated in input order; one
-/// that another end was moved to is free no more, so none is moved further than that.
-void snap_ends(Lines& lines, double reach, RiverReport& report);
+/// that another end was moved to is free no more, so none is moved further than that. False if cancelled.
+bool snap_ends(Lines& lines, double reach, RiverReport& report, const Context& context);
 
 /// A piece of a river between two neighbouring vertices, in the sense of the line that it comes from.
 struct Edge {

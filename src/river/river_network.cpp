@@ -22,19 +22,21 @@ class RiverBuilder {
 
   Result<RiverNetwork> run() {
     if (Status sound = check(); !sound) return sound.error();
-    river::Lines lines = river::take_lines(network_, report_);
+    river::Lines lines = river::take_lines(network_, options_.grid, report_);
     if (lines.line_count() == 0) {
       return Error{ErrorCode::input, "there is no line in the input", "",
                    "give lines with two different vertices at least"};
     }
     if (options_.flow == RiverOptions::Flow::digitised) turn_lines(lines);
-    river::snap_ends(lines, options_.snap, report_);
+    const Error cancelled{ErrorCode::cancelled, "cancelled", "", ""};
+    if (!river::snap_ends(lines, options_.snap, report_, context_)) return cancelled;
     std::optional<Edges> edges = river::node_lines(lines, report_, context_);
-    if (!edges) return Error{ErrorCode::cancelled, "cancelled", "", ""};
+    if (!edges) return cancelled;
     if (edges->edges.empty()) {
       return Error{ErrorCode::input, "nothing is left of the lines", "", "give a smaller distance to join ends"};
     }
     const Reaches reaches = directed_reaches(*edges);
+    if (context_.cancelled()) return cancelled;
     fill(*edges, reaches);
     result_.report_ = report_;
     return std::move(result_);
@@ -44,6 +46,9 @@ class RiverBuilder {
   Status check() const {
     if (!(options_.snap >= 0) || !std::isfinite(options_.snap)) {
       return Error{ErrorCode::usage, "the distance to join ends is negative or not finite", "", "give 0 or more"};
+    }
+    if (!(options_.grid >= 0) || !std::isfinite(options_.grid)) {
+      return Error{ErrorCode::usage, "the pitch of the grid is negative or not finite", "", "give 0 or more"};
     }
     for (const Point& p : options_.outlets) {
       if (!std::isfinite(p.x) || !std::isfinite(p.y)) {

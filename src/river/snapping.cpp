@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/box_tree.hpp"
+#include "model/segment_tree.hpp"
 #include "river/lines.hpp"
 
 namespace krepl::river {
@@ -15,19 +15,25 @@ double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
 class Snapping {
  public:
   Snapping(Lines& lines, double reach, RiverReport& report)
-      : lines_(lines), reach_(reach), report_(report), tree_(boxes()), moved_to_(lines.vertices.size(), none) {
+      : lines_(lines),
+        reach_(reach),
+        report_(report),
+        tree_(lines.vertices, segments()),
+        moved_to_(lines.vertices.size(), none) {
     count_neighbours();
     measure();
     target_.resize(lines.vertices.size(), false);
   }
 
-  void run() {
+  bool run(const Context& context) {
     for (std::size_t line = 0; line < lines_.line_count(); ++line) {
+      if (context.cancelled()) return false;
       const std::size_t first = lines_.begin[line], last = lines_.begin[line + 1] - 1;
       if (lines_.chain[first] == lines_.chain[last]) continue;
       for (std::size_t at : {first, last}) snap(line, at);
     }
     rewrite();
+    return true;
   }
 
  private:
@@ -38,14 +44,11 @@ class Snapping {
     Index vertex;
   };
 
-  std::vector<kernel::Box> boxes() {
-    std::vector<kernel::Box> result;
+  std::vector<model::GridSegment> segments() {
+    std::vector<model::GridSegment> result;
     for (std::size_t line = 0; line < lines_.line_count(); ++line) {
       for (std::size_t i = lines_.begin[line]; i + 1 < lines_.begin[line + 1]; ++i) {
-        kernel::Box box;
-        box.add(lines_.place(lines_.chain[i]));
-        box.add(lines_.place(lines_.chain[i + 1]));
-        result.push_back(box);
+        result.push_back({lines_.chain[i], lines_.chain[i + 1]});
         position_.push_back(i);
         line_.push_back(line);
       }
@@ -97,9 +100,11 @@ class Snapping {
     Index vertex = none;
     double vertex_distance = reach_, line_distance = reach_, parameter = 0;
     std::size_t segment = position_.size();
-    const kernel::Box around{p.x - reach_, p.y - reach_, p.x + reach_, p.y + reach_};
+    const double reach = reach_ / lines_.pitch * (1 + 1e-12), x = double(lines_.vertices[end].x),
+                 y = double(lines_.vertices[end].y);
     bool joined = false;
-    tree_.visit_meeting(around, [&](std::size_t s) {
+    tree_.tree().visit_meeting({x - reach, y - reach, x + reach, y + reach}, [&](std::size_t place) {
+      const std::size_t s = tree_.segment(place);
       const Index a = now(lines_.chain[position_[s]]), b = now(lines_.chain[position_[s] + 1]);
       // What is repeated in another line is not another line.
       if (is_own(line, at, s) || a == end || b == end || a == b) return;
@@ -195,7 +200,7 @@ class Snapping {
   const double reach_;
   RiverReport& report_;
   std::vector<std::size_t> position_, line_;  // per segment: of its first vertex in the chain; its line
-  kernel::BoxTree tree_;
+  const model::SegmentTree tree_;
   std::vector<Index> moved_to_, neighbour_;
   std::vector<bool> several_, target_;
   std::vector<double> way_;  // per place in the chain: length of its line up to there
@@ -204,8 +209,8 @@ class Snapping {
 
 }  // namespace
 
-void snap_ends(Lines& lines, double reach, RiverReport& report) {
-  if (reach > 0 && lines.line_count() > 0) Snapping(lines, reach, report).run();
+bool snap_ends(Lines& lines, double reach, RiverReport& report, const Context& context) {
+  return reach <= 0 || Snapping(lines, reach, report).run(context);
 }
 
 }  // namespace krepl::river

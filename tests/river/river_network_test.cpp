@@ -263,6 +263,27 @@ TEST(RiverNetwork, Rings) {
   EXPECT_EQ(rivers.sub_river_line(0).size(), 4u);
 }
 
+TEST(RiverNetwork, ACoarserGridMakesNearThingsOne) {
+  RiverOptions options;
+  options.grid = 0.3;
+  const RiverNetwork rivers = build({{{0, 0}, {10, 0}}, {{5, 5}, {5, 0.1}}, {{12, 4}, {10.05, 0.05}}}, options);
+  EXPECT_EQ(rivers.report().grid, 0.25);
+  EXPECT_EQ(rivers.report().components, 1u);
+  EXPECT_DOUBLE_EQ(rivers.report().largest_move, 0.1);
+  EXPECT_EQ(rivers.sub_rivers().size(), 3u);
+
+  std::mt19937_64 random(seed() + 5);
+  for (int k = 0; k < int(300 * effort()); ++k) {  // coarse beside the lines themselves: much collapses
+    const RiverLines lines = free_lines(random);
+    options.grid = k % 2 == 0 ? 1 : 16;
+    const auto coarse = RiverNetwork::build(network_of(lines), options);
+    if (!coarse) continue;
+    EXPECT_LE(coarse->report().largest_move, options.grid * 0.7072);
+    check_rivers(*coarse, lines, false, 1.5 * options.grid);
+    if (HasFailure()) return;
+  }
+}
+
 TEST(RiverNetwork, Refusals) {
   const Network points = network_of({{{1, 2}}, {{3, 4}, {3, 4}}});
   EXPECT_EQ(RiverNetwork::build(points).error().code, ErrorCode::input);
