@@ -29,8 +29,9 @@ struct RiverOptions {
   /// A free end of a line that is at most this far from another line (in the unit of the coordinates, 0 or more) is
   /// moved to the nearest vertex there, or to the line where no vertex is so near. 0 joins what touches already.
   double snap = 0;
-  /// Vertices and crossings are rounded to a grid of at most this pitch (a power of two), so what is nearer together becomes
-  /// one. 0, or less than the distance of doubles at the largest coordinate: that distance, which moves hardly anything.
+  /// Vertices and crossings are rounded to a grid of at most this pitch (a power of two), so what is nearer together
+  /// becomes one. 0, or less than the distance of doubles at the largest coordinate: that distance, which moves hardly
+  /// anything.
   double grid = 0;
 };
 
@@ -60,7 +61,7 @@ struct RiverReport {
   std::size_t rivers = 0;          ///< main stems
 };
 
-/// Rivers with their tributaries as a graph, taken apart into sub-rivers [thesis, section 3.1].
+/// Rivers with their tributaries as a graph, taken apart into sub-rivers [javgal2006, section 3.1].
 ///
 /// A *node* is an end of a line, or a vertex where three or more lines meet, or where the flow of two collides or
 /// parts, or an outlet. A *reach* runs from node to node with the flow. A *fusion vertex* is a node that several
@@ -69,8 +70,8 @@ struct RiverReport {
 /// but for a loop, which ends where it began. Every reach belongs to exactly one sub-river.
 ///
 /// Any lines will do: crossing, overlapping, repeated, looping, disconnected, braided, with many outlets. Lines are cut
-/// where they cross or touch; vertices stay where they are but for rounding to a grid (RiverReport::grid) and for the ends of lines
-/// within RiverOptions::snap. A cut segment is within RiverReport::grid of what it was.
+/// where they cross or touch; vertices stay where they are but for rounding to a grid (RiverReport::grid) and for the
+/// ends of lines within RiverOptions::snap. A cut segment is within RiverReport::grid of what it was.
 class RiverNetwork {
  public:
   using Index = std::uint32_t;
@@ -89,9 +90,9 @@ class RiverNetwork {
     double length;
     std::int64_t feature;  ///< the input feature that most of it comes from
     Index sub_river;
-    /// Strahler's: 1 at sources; where at least two of the highest order m meet, m + 1; else m. What branches off
-    /// carries its river's order, but does not raise any order further down, so that a braid that unites again stays
-    /// what it was.
+    /// Strahler's [strahler1957]: 1 at sources; where at least two of the highest order m meet, m + 1; else m. What
+    /// branches off carries its river's order, but does not raise any order further down, so that a braid that unites
+    /// again stays what it was.
     std::uint32_t order;
     /// Left out when lengths and orders are told, so that there is no cycle; a sub-river of its own.
     bool closes_cycle;
@@ -107,8 +108,9 @@ class RiverNetwork {
     std::int64_t feature;             ///< the input feature that most of it comes from
   };
 
-  /// Errors: no line at all; `snap` or `grid` negative or not finite; an outlet that is not finite; cancelled. O(n log n) but for
-  /// lines that cross massively (see docs/rivers.md). The same input gives the same result for any number of threads.
+  /// Errors: no line at all; `snap` or `grid` negative or not finite; an outlet that is not finite; cancelled. O(n log
+  /// n) but for lines that cross massively (see docs/rivers.md). The same input gives the same result for any number of
+  /// threads.
   static Result<RiverNetwork> build(const Network& network, const RiverOptions& options = {},
                                     const Context& context = {});
 

@@ -33,7 +33,7 @@ struct Noding {
   std::size_t touches = 0;          ///< how often a segment was cut at a given vertex that is not one of its ends
 };
 
-/// Cuts segments where they cross, touch and overlap, by snap rounding [Hobby 1999]: every vertex and every crossing
+/// Cuts segments where they cross, touch and overlap, by snap rounding [hobby1999]: every vertex and every crossing
 /// makes the grid's pixel around it hot, and every segment that passes a hot pixel is led through its centre.
 ///
 /// All decisions are exact and each crossing is rounded once, so the fragments meet at common vertices only, or

@@ -31,8 +31,8 @@ class Parts {
   std::vector<Index> above_;
 };
 
-/// The order in which water that went upstream from the outlets, everywhere at once, would come to the nodes [Dijkstra
-/// 1959].
+/// The order in which water that went upstream from the outlets, everywhere at once, would come to the nodes
+/// [dijkstra1959].
 std::vector<Index> distance_ranks(const Reaches& reaches, const std::vector<Index>& outlets) {
   const std::size_t count = reaches.node.size();
   std::vector<std::vector<Index>> at(count);
