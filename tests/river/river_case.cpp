@@ -24,10 +24,12 @@ struct Segment {
 
 double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
 
+/// In long double: what is measured is as small as the rounding of coordinates.
 double distance_to(Point p, const Segment& s) {
-  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y, square = dx * dx + dy * dy;
-  const double t = square == 0 ? 0 : std::clamp(((p.x - s.a.x) * dx + (p.y - s.a.y) * dy) / square, 0.0, 1.0);
-  return distance(p, {s.a.x + t * dx, s.a.y + t * dy});
+  using Long = long double;
+  const Long dx = Long(s.b.x) - s.a.x, dy = Long(s.b.y) - s.a.y, x = Long(p.x) - s.a.x, y = Long(p.y) - s.a.y;
+  const Long square = dx * dx + dy * dy, t = square == 0 ? 0 : std::clamp((x * dx + y * dy) / square, Long(0), Long(1));
+  return double(std::hypot(x - t * dx, y - t * dy));
 }
 
 bool meet_wrongly(const Segment& s, const Segment& t) {

@@ -58,7 +58,10 @@ TEST(RiverNetwork, OutletsDrainEverything) {
     if (!has_segment(lines)) continue;
     RiverOptions options;
     options.flow = RiverOptions::Flow::outlet;
-    for (std::size_t i = random() % 3; i > 0; --i) options.outlets.push_back(lines[random() % lines.size()].front());
+    for (std::size_t i = random() % 3; i > 0; --i) {
+      const auto& line = lines[random() % lines.size()];
+      if (has_segment({line})) options.outlets.push_back(line.front());
+    }
     const RiverNetwork rivers = build(lines, options);
     check_rivers(rivers, lines, false, 3 * rivers.report().grid);
     // No cycles but loops, and the only drains are outlets: the given ones, and one in each part without.
@@ -277,7 +280,7 @@ TEST(RiverNetwork, ACoarserGridMakesNearThingsOne) {
     const RiverLines lines = free_lines(random);
     options.grid = k % 2 == 0 ? 1 : 16;
     const auto coarse = RiverNetwork::build(network_of(lines), options);
-    if (!coarse) continue;
+    if (!coarse || coarse->report().ignored_points > 0) continue;  // a whole line within a pixel is none
     EXPECT_LE(coarse->report().largest_move, options.grid * 0.7072);
     check_rivers(*coarse, lines, false, 1.5 * options.grid);
     if (HasFailure()) return;

@@ -143,7 +143,8 @@ bool check_union(GeosUnion& geos, const RiverNetwork& rivers, const std::vector<
 std::size_t check_zones(GeosUnion& geos, const RiverNetwork& rivers, Network input, double radius) {
   const Parts parts = parts_of(rivers);
   const Zone whole = zone_of_part(rivers, parts.whole[0], radius), raw = zone_of_network(std::move(input), radius);
-  EXPECT_NEAR(whole.area(), raw.area(), 1e-9 * raw.area());
+  // Lines are moved by a grid's pitch at most, and a zone's radius enlarged by a few.
+  EXPECT_NEAR(whole.area(), raw.area(), 1e-9 * raw.area() + 10 * rivers.report().grid * raw.perimeter());
   EXPECT_NEAR(whole.perimeter(), raw.perimeter(), 1e-7 * raw.perimeter());
   const Zone inner = zone_of_part(rivers, parts.whole[0], radius * (1 - 1.01 * geos.depth()));
   const Zone outer = zone_of_part(rivers, parts.whole[0], radius * (1 + 1e-9));
