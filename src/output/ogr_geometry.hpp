@@ -9,6 +9,9 @@
 
 namespace krepl::output {
 
+/// Runs that follow each other as a COMPOUNDCURVE.
+std::unique_ptr<OGRCompoundCurve> compound_curve(const std::vector<CurveRun>& runs);
+
 /// The piece as a COMPOUNDCURVE, so that all pieces of a layer are of one type.
 std::unique_ptr<OGRCompoundCurve> piece_geometry(const Zone& zone, std::uint32_t piece);
 

@@ -10,44 +10,12 @@
 #include <numbers>
 
 #include "output/output_stream.hpp"
+#include "output/svg_text.hpp"
 #include "output/zone_writers.hpp"
 
 namespace krepl::output {
 
 namespace {
-
-// The centre of an SVG arc follows from its ends and radius, which is ill-conditioned near half a turn; up to a third of a
-// turn rounding is not amplified.
-constexpr double largest_arc = 2 * std::numbers::pi / 3;
-
-class SvgText {
- public:
-  explicit SvgText(Point origin) : origin_(origin) {}
-
-  void put(std::string_view s) { text_.append(s.data(), s.data() + s.size()); }
-  void put_absolute(char command, Point p) { put_relative(command, {p.x - origin_.x, p.y - origin_.y}); }
-  /// `p` relative to the origin, y upwards. Adding zero turns -0 into 0.
-  void put_relative(char command, Point p) {
-    fmt::format_to(std::back_inserter(text_), "{}{} {}", command, p.x, 0.0 - p.y);
-  }
-  void put_arc(double radius, Point end) {
-    // Counter-clockwise with y upwards is against the direction of increasing angles with y downwards: sweep flag 0.
-    fmt::format_to(std::back_inserter(text_), "A{0} {0} 0 0 0 {1} {2}", radius, end.x - origin_.x,
-                   0.0 - (end.y - origin_.y));
-  }
-  template <class... T>
-  void format(fmt::format_string<T...> pattern, T&&... values) {
-    fmt::format_to(std::back_inserter(text_), pattern, std::forward<T>(values)...);
-  }
-  void flush(OutputStream& stream) {
-    stream.write({text_.data(), text_.size()});
-    text_.clear();
-  }
-
- private:
-  Point origin_;
-  fmt::memory_buffer text_;
-};
 
 void put_ring(SvgText& text, const Zone& zone, std::uint32_t ring) {
   text.put_absolute('M', zone.piece(zone.ring_begin(ring)).start);
@@ -57,7 +25,7 @@ void put_ring(SvgText& text, const Zone& zone, std::uint32_t ring) {
       text.put_absolute('L', piece.end);
       continue;
     }
-    std::vector<Point> ends = arc_ends(piece, largest_arc);
+    std::vector<Point> ends = arc_ends(piece, largest_svg_arc);
     for (std::size_t i = 1; i < ends.size(); ++i) text.put_arc(zone.radius(), ends[i]);
   }
   text.put("Z");
