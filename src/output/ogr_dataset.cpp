@@ -1,5 +1,7 @@
 #include "output/ogr_dataset.hpp"
 
+#include "output/atomic_file.hpp"
+
 namespace krepl::output {
 
 OgrDataset::OgrDataset(std::string driver, const std::string& crs)
@@ -56,6 +58,21 @@ Status OgrDataset::close() {
   dataset_.reset();
   if (messages_.failed()) return failure("cannot be written");
   return std::monostate{};
+}
+
+Status write_dataset(const std::string& path, const std::string& driver, const std::string& crs,
+                     std::vector<std::string>& notes, const std::function<Status(OgrDataset&)>& write) {
+  ogr::initialise();
+  Result<AtomicFile> file = AtomicFile::create(path);
+  if (!file) return file.error();
+  {
+    OgrDataset dataset(driver, crs);
+    if (Status created = dataset.create(file->temporary_path()); !created) return created;
+    if (Status written = write(dataset); !written) return written;
+    if (!dataset.has_fields()) notes.push_back("note: " + driver + " holds no attributes; there are geometries only");
+    if (Status closed = dataset.close(); !closed) return closed;
+  }
+  return file->commit();
 }
 
 }  // namespace krepl::output

@@ -3,6 +3,7 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <string>
@@ -48,5 +49,9 @@ class OgrDataset {
   std::unique_ptr<GDALDataset> dataset_;
   bool transaction_ = false, has_fields_ = true;
 };
+
+/// A file of an OGR driver, whole or not at all, its layers made by `write`.
+Status write_dataset(const std::string& path, const std::string& driver, const std::string& crs,
+                     std::vector<std::string>& notes, const std::function<Status(OgrDataset&)>& write);
 
 }  // namespace krepl::output

@@ -27,6 +27,13 @@ std::unique_ptr<OGRCurve> run_curve(const CurveRun& run) {
 
 }  // namespace
 
+std::unique_ptr<OGRLineString> line_geometry(std::span<const Point> points) {
+  auto line = std::make_unique<OGRLineString>();
+  line->setNumPoints(int(points.size()), FALSE);
+  for (std::size_t i = 0; i < points.size(); ++i) line->setPoint(int(i), points[i].x, points[i].y);
+  return line;
+}
+
 std::unique_ptr<OGRCompoundCurve> compound_curve(const std::vector<CurveRun>& runs) {
   auto compound = std::make_unique<OGRCompoundCurve>();
   for (const CurveRun& run : runs) compound->addCurveDirectly(run_curve(run).release());

@@ -3,11 +3,14 @@
 #include <ogr_geometry.h>
 
 #include <memory>
+#include <span>
 
 #include "output/linear.hpp"
 #include "output/zone_writers.hpp"
 
 namespace krepl::output {
+
+std::unique_ptr<OGRLineString> line_geometry(std::span<const Point> points);
 
 /// Runs that follow each other as a COMPOUNDCURVE.
 std::unique_ptr<OGRCompoundCurve> compound_curve(const std::vector<CurveRun>& runs);

@@ -2,7 +2,6 @@
 
 // What the writers of river networks share.
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,10 +12,6 @@ namespace krepl::output {
 
 OgrDataset::Fields sub_river_fields();
 void set_sub_river(OGRFeature& row, const RiverNetwork& rivers, RiverNetwork::Index s);
-
-/// A file of an OGR driver, whole or not at all, its layers made by `write`.
-Status write_dataset(const std::string& path, const std::string& driver, const std::string& crs,
-                     std::vector<std::string>& notes, const std::function<Status(OgrDataset&)>& write);
 
 /// A drawing: lines as wide as their order, main stems dark, fusion vertices as dots.
 Result<std::vector<std::string>> write_river_svg(const std::string& path, const RiverNetwork& rivers, const Context&);

@@ -3,8 +3,8 @@
 
 #include <iterator>
 
-#include "output/atomic_file.hpp"
 #include "output/ogr_dataset.hpp"
+#include "output/ogr_geometry.hpp"
 #include "output/output_stream.hpp"
 #include "output/river_file.hpp"
 #include "output/river_writers.hpp"
@@ -17,13 +17,6 @@ using Index = RiverNetwork::Index;
 using Notes = Result<std::vector<std::string>>;
 
 Error interrupted() { return {ErrorCode::cancelled, "interrupted while writing", "", ""}; }
-
-std::unique_ptr<OGRLineString> line_geometry(std::span<const Point> points) {
-  auto line = std::make_unique<OGRLineString>();
-  line->setNumPoints(int(points.size()), FALSE);
-  for (std::size_t i = 0; i < points.size(); ++i) line->setPoint(int(i), points[i].x, points[i].y);
-  return line;
-}
 
 std::size_t line_count(const RiverNetwork& rivers, const RiverFileOptions& options) {
   return options.reaches ? rivers.reaches().size() : rivers.sub_rivers().size();
@@ -193,21 +186,6 @@ void set_sub_river(OGRFeature& row, const RiverNetwork& rivers, Index s) {
   if (river.downstream) row.SetField("downstream", GIntBig(*river.downstream) + 1);
   row.SetField("stem", GIntBig(river.stem) + 1);
   if (river.feature >= 0) row.SetField("feature", GIntBig(river.feature));
-}
-
-Status write_dataset(const std::string& path, const std::string& driver, const std::string& crs,
-                     std::vector<std::string>& notes, const std::function<Status(OgrDataset&)>& write) {
-  ogr::initialise();
-  Result<AtomicFile> file = AtomicFile::create(path);
-  if (!file) return file.error();
-  {
-    OgrDataset dataset(driver, crs);
-    if (Status created = dataset.create(file->temporary_path()); !created) return created;
-    if (Status written = write(dataset); !written) return written;
-    if (!dataset.has_fields()) notes.push_back("note: " + driver + " holds no attributes; there are lines only");
-    if (Status closed = dataset.close(); !closed) return closed;
-  }
-  return file->commit();
 }
 
 Notes write_rivers(const std::string& path, const RiverNetwork& rivers, const ZoneFormat& format,

@@ -69,7 +69,7 @@ class Rivers(support.CliTest):
             layer = {"out.gpkg": "sub_rivers", "out.fgb": "sub_rivers", "out.geojson": "sub_rivers", "out.kml": "sub_rivers",
                      "out.dxf": "entities"}.get(name, "out")
             self.assertIn("Feature Count: 4", self.ogr("ogrinfo", "-ro", "-so", name, layer), name)
-            note = "krepl: out.dxf: note: DXF holds no attributes; there are lines only\n"
+            note = "krepl: out.dxf: note: DXF holds no attributes; there are geometries only\n"
             self.assertEqual(done.stderr, note if name == "out.dxf" else "")
         self.assertEqual(self.column(self.rows("out.shp", "out"), "downstream"), ["", "1", "2", "1"])
         self.succeed("rivers", "in.wkt", "reaches.fgb", "--reaches")
