@@ -2,7 +2,7 @@
 
 _krepl() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  local verbs="buffer rivers profile terrain height info verify view" verb= word
+  local verbs="buffer rivers offset profile terrain height info verify view" verb= word
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case " $verbs " in *" $word "*) verb=$word; break ;; esac
   done
@@ -33,7 +33,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --snap | --grid | --flow-field | --where | --max-error | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points) return ;;
+    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points) return ;;
   esac
   if [[ $current == -* ]]; then
     # The program itself knows its options, so that the two cannot disagree.
