@@ -48,6 +48,7 @@ Result<OGRLayer*> OgrDataset::create_layer(const char* name, OGRwkbGeometryType 
 Status OgrDataset::add(OGRLayer& layer, OGRFeature& feature) {
   messages_.clear();
   if (layer.CreateFeature(&feature) != OGRERR_NONE || messages_.failed()) return failure("cannot be written");
+  ++added_;
   return std::monostate{};
 }
 
@@ -57,6 +58,18 @@ Status OgrDataset::close() {
   dataset_->FlushCache(true);
   dataset_.reset();
   if (messages_.failed()) return failure("cannot be written");
+  return std::monostate{};
+}
+
+Status OgrDataset::check_count(const std::string& path) {
+  if (driver_ == "GPKG") return std::monostate{};
+  messages_.clear();
+  const std::unique_ptr<GDALDataset> again(
+      GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  if (!again || again->GetLayerCount() == 0) return failure("cannot be read back after writing");
+  std::size_t found = 0;
+  for (const auto& feature : *again->GetLayer(0)) found += feature->GetGeometryRef() != nullptr ? 1 : 0;
+  if (messages_.failed() || found != added_) return failure("is not complete after writing");
   return std::monostate{};
 }
 
@@ -71,6 +84,7 @@ Status write_dataset(const std::string& path, const std::string& driver, const s
     if (Status written = write(dataset); !written) return written;
     if (!dataset.has_fields()) notes.push_back("note: " + driver + " holds no attributes; there are geometries only");
     if (Status closed = dataset.close(); !closed) return closed;
+    if (Status whole = dataset.check_count(file->temporary_path()); !whole) return whole;
   }
   return file->commit();
 }

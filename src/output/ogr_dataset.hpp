@@ -33,6 +33,9 @@ class OgrDataset {
   /// Commits and closes.
   Status close();
 
+  /// After close(): reads a file of one layer back, for drivers do not always tell of a failed write (SQLite does).
+  Status check_count(const std::string& path);
+
   bool has_fields() const { return has_fields_; }
   bool can(const char* capability) const { return dataset_->TestCapability(capability); }
   const std::string& driver() const { return driver_; }
@@ -48,6 +51,7 @@ class OgrDataset {
   OGRSpatialReference crs_;
   std::unique_ptr<GDALDataset> dataset_;
   bool transaction_ = false, has_fields_ = true;
+  std::size_t added_ = 0;
 };
 
 /// A file of an OGR driver, whole or not at all, its layers made by `write`.
