@@ -2,7 +2,7 @@
 
 _krepl() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  local verbs="buffer profile terrain height info verify view lab" verb= word
+  local verbs="buffer rivers offset profile terrain height info verify view lab" verb= word
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case " $verbs " in *" $word "*) verb=$word; break ;; esac
   done
@@ -20,6 +20,8 @@ _krepl() {
       local engines="auto intervals"
       [[ $verb == terrain ]] && engines="auto incremental"
       mapfile -t COMPREPLY < <(compgen -W "$engines" -- "$current"); return ;;
+    --zones) mapfile -t COMPREPLY < <(compgen -W "sub-river stem whole" -- "$current"); return ;;
+    --outlet) mapfile -t COMPREPLY < <(compgen -W "guess" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "mm cm m km in ft" -- "$current"); return ;;
     --split) mapfile -t COMPREPLY < <(compgen -W "rising falling shorter" -- "$current"); return ;;
     --to-crs) mapfile -t COMPREPLY < <(compgen -W "auto EPSG:" -- "$current"); return ;;
@@ -31,7 +33,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --where | --max-error | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit) return ;;
+    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit) return ;;
   esac
   local command=("$verb")
   if [[ $verb == lab ]]; then

@@ -46,6 +46,8 @@ int main(int argc, char** argv) {
   krepl::app::Session session;
   describe(program);
   krepl::app::add_buffer_verb(program, session);
+  krepl::app::add_rivers_verb(program, session);
+  krepl::app::add_offset_verb(program, session);
   krepl::app::add_profile_verb(program, session);
   krepl::app::add_terrain_verb(program, session);
   krepl::app::add_height_verb(program, session);
