@@ -21,8 +21,9 @@ bool Envelope<Real>::precedes(Index a, Index b) const {
 /// from one axis and b + e from the other, and s between b / u(b) at the two, their heights differ by
 ///   level + (q_k - q_c) u(b) + q_c e s,
 /// where level and e are linear in the place. `least_up`: of u; what shows nearer to the wall does not matter.
+/// `allowed`: by how much the lower one may be higher.
 template <class Real>
-bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up) const {
+bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up, Real allowed) const {
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (c.kind != FeatureKind::edge || k.kind != FeatureKind::edge) return false;
   if (absolute(c.gx * k.gy - c.gy * k.gx) > 0x1p-8) return false;
@@ -78,7 +79,8 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
     for (const Real s : slope) {
       for (const Real u : up) {
         const Real over = level + (k.q - c.q) * u + c.q * apart[i] * s;
-        if (!(over > noise_) && !(over >= -noise_ && precedes(upper, lower))) return false;
+        if (over > noise_ || (allowed > 0 && over >= -allowed)) continue;
+        if (!(over >= -noise_ && precedes(upper, lower))) return false;
       }
     }
   }

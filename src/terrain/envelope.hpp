@@ -153,7 +153,7 @@ class Envelope {
   Real axis_height(Index edge, Point p) const;
   bool precedes(Index a, Index b) const;
   bool lies_in(Index lower, Index upper) const;
-  bool hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up = 0) const;
+  bool hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up = 0, Real allowed = 0) const;
   bool hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const;
   struct Vector {
     Real x, y, z;
@@ -169,6 +169,7 @@ class Envelope {
   Real inset_of(Index body, const Wall& wall, const Box& box, const Real (&plane)[4]) const;
   bool hidden_beyond(Index patch, const Wall& wall, Real inset, std::span<const Index> others,
                      const BoxFrame& frame) const;
+  bool beside_beyond(Index patch, const Bound& wall, Real inset, std::span<const Index> others, const Box& box) const;
   bool back_to_back(const Bound& a, const Bound& b, const Box& box, Real inset) const;
   bool domain_covers(Index patch, const BoxFrame& box) const;
   bool domain_meets(Index patch, const BoxFrame& box) const;
