@@ -2,7 +2,7 @@
 
 _krepl() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  local verbs="buffer axis profile terrain height info verify view" verb= word
+  local verbs="buffer axis rivers offset profile terrain height info verify view lab" verb= word
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case " $verbs " in *" $word "*) verb=$word; break ;; esac
   done
@@ -20,6 +20,8 @@ _krepl() {
       local engines="auto intervals voronoi"
       [[ $verb == terrain ]] && engines="auto incremental"
       mapfile -t COMPREPLY < <(compgen -W "$engines" -- "$current"); return ;;
+    --zones) mapfile -t COMPREPLY < <(compgen -W "sub-river stem whole" -- "$current"); return ;;
+    --outlet) mapfile -t COMPREPLY < <(compgen -W "guess" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "mm cm m km in ft" -- "$current"); return ;;
     --split) mapfile -t COMPREPLY < <(compgen -W "rising falling shorter" -- "$current"); return ;;
     --to-crs) mapfile -t COMPREPLY < <(compgen -W "auto EPSG:" -- "$current"); return ;;
@@ -31,11 +33,23 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --where | --max-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points) return ;;
+    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit) return ;;
   esac
+  local command=("$verb")
+  if [[ $verb == lab ]]; then
+    local names="lower-bound profiles pseudospheres components conjecture search real list" name=
+    for word in "${COMP_WORDS[@]:2:COMP_CWORD-2}"; do
+      case " $names " in *" $word "*) name=$word; break ;; esac
+    done
+    if [[ -z $name ]]; then
+      mapfile -t COMPREPLY < <(compgen -W "$names --help" -- "$current")
+      return
+    fi
+    command+=("$name")
+  fi
   if [[ $current == -* ]]; then
     # The program itself knows its options, so that the two cannot disagree.
-    mapfile -t COMPREPLY < <(compgen -W "$("${COMP_WORDS[0]}" "$verb" --help 2>/dev/null |
+    mapfile -t COMPREPLY < <(compgen -W "$("${COMP_WORDS[0]}" "${command[@]}" --help 2>/dev/null |
       grep -Eo -- '(^|[ ,])--?[a-z][a-z-]*' | tr -d ' ,')" -- "$current")
     return
   fi

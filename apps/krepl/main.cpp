@@ -47,12 +47,15 @@ int main(int argc, char** argv) {
   describe(program);
   krepl::app::add_buffer_verb(program, session);
   krepl::app::add_axis_verb(program, session);
+  krepl::app::add_rivers_verb(program, session);
+  krepl::app::add_offset_verb(program, session);
   krepl::app::add_profile_verb(program, session);
   krepl::app::add_terrain_verb(program, session);
   krepl::app::add_height_verb(program, session);
   krepl::app::add_verify_verb(program, session);
   krepl::app::add_info_verb(program, session);
   krepl::app::add_view_verb(program, session);
+  krepl::app::add_lab_verb(program, session);
   add_footer(program);
   try {
     program.parse(argc, argv);

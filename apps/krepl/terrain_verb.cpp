@@ -9,6 +9,7 @@
 #include "output/surface_file.hpp"
 #include "output_target.hpp"
 #include "stopwatch.hpp"
+#include "terrain/surface_counts.hpp"
 #include "terrain_options.hpp"
 #include "verbs.hpp"
 
@@ -86,43 +87,11 @@ Result<TerrainPlan> make_plan(const TerrainVerbOptions& options) {
   return plan;
 }
 
-struct EdgeCounts {
-  std::size_t seams = 0, valleys = 0, rims = 0;
-};
-
-EdgeCounts count_edges(const Surface& surface) {
-  EdgeCounts counts;
-  for (std::size_t e = 0; e < surface.subdivision().edge_count(); ++e) {
-    const Surface::EdgeKind kind = surface.edge(Surface::Index(e)).kind;
-    ++(kind == Surface::EdgeKind::seam     ? counts.seams
-       : kind == Surface::EdgeKind::valley ? counts.valleys
-                                           : counts.rims);
-  }
-  return counts;
-}
-
-/// Faces by what they are pieces of: planes, cylinders or spheres.
-struct FaceCounts {
-  std::size_t planes = 0, cylinders = 0, spheres = 0;
-};
-
-FaceCounts count_faces(const Surface& surface) {
-  using Kind = Terrain::FeatureKind;
-  FaceCounts counts;
-  for (std::size_t f = 0; f < surface.subdivision().face_count(); ++f) {
-    const Surface::Index feature = surface.face_feature(Surface::Index(f));
-    if (feature == Surface::none) continue;
-    const Kind kind = surface.terrain().feature_kind(feature);
-    ++(kind == Kind::face ? counts.planes : kind == Kind::edge ? counts.cylinders : counts.spheres);
-  }
-  return counts;
-}
-
 void tell_counters(const Surface& surface, double seconds, Session& session) {
   if (!session.verbose) return;  // counting takes time
   const SurfaceCounters& c = surface.counters();
   session.detail(fmt::format("surface    {:.3f} s: radius {}, {} patches looked at", seconds, surface.radius(), c.patches));
-  const FaceCounts faces = count_faces(surface);
+  const terrain::SurfaceCounts faces = terrain::count_surface(surface);
   session.detail(fmt::format("faces      {} of planes, {} of cylinders, {} of spheres", faces.planes, faces.cylinders,
                              faces.spheres));
   if (c.unions > 0) {
@@ -149,10 +118,9 @@ Result<Surface> compute(const TerrainVerbOptions& options, const TerrainPlan& pl
 }
 
 std::string surface_summary(const Surface& surface) {
-  const Subdivision& topology = surface.subdivision();
-  const EdgeCounts edges = count_edges(surface);
-  return fmt::format("{} vertices, {} edges ({} seams, {} valleys, {} rims), {} faces", topology.vertex_count,
-                     topology.edge_count(), edges.seams, edges.valleys, edges.rims, topology.face_count());
+  const terrain::SurfaceCounts counts = terrain::count_surface(surface);
+  return fmt::format("{} vertices, {} edges ({} seams, {} valleys, {} rims), {} faces", counts.vertices, counts.edges,
+                     counts.seams, counts.valleys, counts.rims, counts.faces);
 }
 
 std::string summary_line(const Terrain& terrain, const std::string& surface, const output::SurfaceFileReport& report) {

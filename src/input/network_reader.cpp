@@ -65,6 +65,24 @@ Result<std::optional<OGRSpatialReference>> crs_of_data(const NetworkRequest& req
   return std::optional<OGRSpatialReference>(*assigned);
 }
 
+/// Places in the coordinate system that the data were projected to, if they were.
+Result<std::vector<Point>> projected_places(const NetworkRequest& request, const std::optional<OGRSpatialReference>& from,
+                                            const std::optional<OGRSpatialReference>& to, const Context& context) {
+  if (request.places.empty() || request.to_crs.empty() || !to) return request.places;
+  Parts parts;
+  for (std::size_t i = 0; i < request.places.size(); ++i) {
+    parts.points.push_back(request.places[i]);
+    parts.begin.push_back(parts.points.size());
+    parts.feature.push_back(std::int64_t(i) + 1);
+    parts.kind.push_back(Parts::Kind::point);
+  }
+  std::vector<std::string> told_already;
+  const auto place = [](std::int64_t number) { return "place " + std::to_string(number); };
+  auto done = project(parts, {from, ogr::crs_definition(*to), place}, told_already, context);
+  if (!done) return done.error();
+  return parts.points;
+}
+
 }  // namespace
 
 Result<NetworkData> read_network(const NetworkRequest& request, const Context& context) {
@@ -90,6 +108,9 @@ Result<NetworkData> read_network(const NetworkRequest& request, const Context& c
       project(parts, {*crs, request.to_crs, place}, data.notes, context);
   if (!plane) return plane.error();
   if (plane->has_value()) data.crs = ogr::crs_definition(**plane);
+  Result<std::vector<Point>> places = projected_places(request, *crs, *plane, context);
+  if (!places) return places.error();
+  data.places = std::move(*places);
 
   Result<Network> network = build(parts, context);
   if (!network) return network.error();

@@ -17,6 +17,7 @@ struct NetworkRequest {
   std::string where;   ///< OGR's SQL WHERE clause
   std::string crs;     ///< coordinate system of the data, in place of what the file says (or does not say)
   std::string to_crs;  ///< plane coordinate system to project to; `auto` chooses one around the data
+  std::vector<Point> places = {};  ///< further places, in the coordinates of the file; projected with the data
 };
 
 struct NetworkData {
@@ -24,6 +25,7 @@ struct NetworkData {
   std::string crs;                 ///< WKT 2 of the network's coordinates; empty: a plane of unknown place
   std::vector<std::string> notes;  ///< what the user should know: projection chosen, heights ignored, features left out
   std::size_t features = 0;        ///< features with geometry
+  std::vector<Point> places;       ///< those of the request, in the network's coordinates
 };
 
 /// Reads lines, rings and points into a Network. Feature numbers are OGR's feature ids, for WKT the line numbers.

@@ -20,10 +20,12 @@ struct Box {
     min_x = std::min(min_x, b.min_x), max_x = std::max(max_x, b.max_x);
     min_y = std::min(min_y, b.min_y), max_y = std::max(max_y, b.max_y);
   }
+  /// True if they share a point, be it of their borders.
+  bool meets(const Box& b) const { return min_x <= b.max_x && b.min_x <= max_x && min_y <= b.max_y && b.min_y <= max_y; }
 };
 
 /// A packed tree, eight children a node, over boxes in the order given (which should follow the plane: along curves).
-/// Answers questions about horizontal rays.
+/// Answers questions about horizontal rays and about boxes.
 class BoxTree {
  public:
   explicit BoxTree(std::vector<Box> boxes) {
@@ -43,8 +45,22 @@ class BoxTree {
     if (!levels_[0].empty()) descend(levels_.size() - 1, 0, p, limit, visit);
   }
 
+  /// Visits the boxes that share a point with this one, in their order.
+  template <class Visit>
+  void visit_meeting(const Box& box, Visit&& visit) const {
+    if (!levels_[0].empty()) descend_meeting(levels_.size() - 1, 0, box, visit);
+  }
+
  private:
   static constexpr std::size_t arity = 8;
+
+  template <class Visit>
+  void descend_meeting(std::size_t level, std::size_t index, const Box& box, Visit& visit) const {
+    if (!levels_[level][index].meets(box)) return;
+    if (level == 0) return visit(index);
+    const std::size_t first = index * arity, last = std::min(first + arity, levels_[level - 1].size());
+    for (std::size_t i = first; i < last; ++i) descend_meeting(level - 1, i, box, visit);
+  }
 
   template <class Limit, class Visit>
   void descend(std::size_t level, std::size_t index, Point p, Limit& limit, Visit& visit) const {

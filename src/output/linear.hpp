@@ -19,6 +19,8 @@ class Linearizer {
 
   /// The ring's vertices; first and last are equal.
   std::vector<Point> ring(const Zone& zone, std::uint32_t ring);
+  /// Appends the vertices of an arc after its start.
+  void append_arc(const Zone::Piece& arc, std::vector<Point>& points);
   /// The largest distance between a chord and its arc so far.
   double deviation() const { return deviation_; }
 
@@ -26,7 +28,6 @@ class Linearizer {
   static double finest(double radius) { return 1e-12 * radius; }
 
  private:
-  void append_arc(const Zone::Piece& arc, std::vector<Point>& points);
   double radius_;
   double largest_step_;
   double deviation_ = 0;

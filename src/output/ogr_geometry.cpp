@@ -25,12 +25,27 @@ std::unique_ptr<OGRCurve> run_curve(const CurveRun& run) {
   return simple_curve<OGRLineString>(run.points);
 }
 
-std::unique_ptr<OGRCurve> ring_curve(const Zone& zone, std::uint32_t ring) {
-  std::vector<CurveRun> runs = ring_runs(zone, ring);
-  if (runs.size() == 1) return run_curve(runs.front());
+}  // namespace
+
+std::unique_ptr<OGRLineString> line_geometry(std::span<const Point> points) {
+  auto line = std::make_unique<OGRLineString>();
+  line->setNumPoints(int(points.size()), FALSE);
+  for (std::size_t i = 0; i < points.size(); ++i) line->setPoint(int(i), points[i].x, points[i].y);
+  return line;
+}
+
+std::unique_ptr<OGRCompoundCurve> compound_curve(const std::vector<CurveRun>& runs) {
   auto compound = std::make_unique<OGRCompoundCurve>();
   for (const CurveRun& run : runs) compound->addCurveDirectly(run_curve(run).release());
   return compound;
+}
+
+namespace {
+
+std::unique_ptr<OGRCurve> ring_curve(const Zone& zone, std::uint32_t ring) {
+  std::vector<CurveRun> runs = ring_runs(zone, ring);
+  if (runs.size() == 1) return run_curve(runs.front());
+  return compound_curve(runs);
 }
 
 std::unique_ptr<OGRCurvePolygon> curve_polygon(const Zone& zone, std::uint32_t p) {
@@ -60,9 +75,7 @@ std::unique_ptr<OGRCompoundCurve> piece_geometry(const Zone& zone, std::uint32_t
   Zone::Piece p = zone.piece(piece);
   CurveRun run{p.kind == Zone::Kind::arc && !is_negligible(p), {p.start, p.end}};
   if (run.arc) run.points = arc_points(p);
-  auto compound = std::make_unique<OGRCompoundCurve>();
-  compound->addCurveDirectly(run_curve(run).release());
-  return compound;
+  return compound_curve({run});
 }
 
 std::unique_ptr<OGRGeometry> curve_geometry(const Zone& zone, const ZoneFeature& feature, bool single) {

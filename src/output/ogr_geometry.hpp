@@ -3,11 +3,17 @@
 #include <ogr_geometry.h>
 
 #include <memory>
+#include <span>
 
 #include "output/linear.hpp"
 #include "output/zone_writers.hpp"
 
 namespace krepl::output {
+
+std::unique_ptr<OGRLineString> line_geometry(std::span<const Point> points);
+
+/// Runs that follow each other as a COMPOUNDCURVE.
+std::unique_ptr<OGRCompoundCurve> compound_curve(const std::vector<CurveRun>& runs);
 
 /// The piece as a COMPOUNDCURVE, so that all pieces of a layer are of one type.
 std::unique_ptr<OGRCompoundCurve> piece_geometry(const Zone& zone, std::uint32_t piece);

@@ -6,15 +6,13 @@
 
 #include "ogr/message_capture.hpp"
 #include "output/atomic_file.hpp"
+#include "output/ogr_dataset.hpp"
 #include "output/ogr_geometry.hpp"
-#include "output/ogr_options.hpp"
 #include "output/zone_writers.hpp"
 
 namespace krepl::output {
 
 namespace {
-
-using Dataset = std::unique_ptr<GDALDataset>;
 
 /// Number of coordinates in a geometry: what is compared after reading a file back.
 std::size_t coordinate_count(const OGRGeometry& geometry) {
@@ -31,80 +29,28 @@ std::size_t coordinate_count(const OGRGeometry& geometry) {
 class OgrWriter {
  public:
   OgrWriter(const std::string& driver, const ZoneFileOptions& options, const Context& context)
-      : driver_(driver), options_(options), context_(context) {}
+      : driver_(driver), options_(options), context_(context), dataset_(driver, options.crs) {}
 
   Status write(const std::string& path, std::span<const Zone> zones);
   const ZoneFileReport& report() const { return report_; }
 
  private:
-  Status create(const std::string& path);
-  Result<OGRLayer*> create_layer(const char* name, OGRwkbGeometryType type);
-  Status add_fields(OGRLayer& layer, std::initializer_list<std::pair<const char*, OGRFieldType>> fields);
   Status write_zone_layer(std::span<const Zone> zones);
   Status write_zone(OGRLayer& layer, const Zone& zone, bool curves);
   Status write_pieces(std::span<const Zone> zones);
   Status add_piece(OGRLayer& layer, const Zone& zone, std::uint32_t piece);
-  Status add_feature(OGRLayer& layer, OGRFeature& feature);
-  Status close(bool transaction);
   Status read_back(const std::string& path);
-  Error failure(const std::string& what) const { return messages_.error(ErrorCode::io, what, "", remedy()); }
-  std::string remedy() const;
+  static Error failure(const ogr::MessageCapture& messages, const std::string& what) {
+    return messages.error(ErrorCode::io, what, "", "free some space, or choose another place or format");
+  }
 
   const std::string& driver_;
   const ZoneFileOptions& options_;
   const Context& context_;
-  ogr::MessageCapture messages_;
-  OGRSpatialReference crs_;
-  Dataset dataset_;
+  OgrDataset dataset_;
   ZoneFileReport report_;
   std::size_t features_ = 0, coordinates_ = 0;
 };
-
-std::string OgrWriter::remedy() const {
-  return "free some space, or choose another place or format";
-}
-
-Status OgrWriter::create(const std::string& path) {
-  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_.c_str());
-  if (driver == nullptr) return failure("GDAL has no driver " + driver_);
-  dataset_.reset(driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-  if (!dataset_) return failure("cannot be written");
-  if (options_.crs.empty()) {
-    // GeoPackage would otherwise record "undefined geographic", and krepl's coordinates are plane.
-    if (driver_ == "GPKG") crs_.SetLocalCS("Undefined Cartesian SRS");
-  } else {
-    crs_.importFromWkt(options_.crs.c_str());
-    crs_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  }
-  return std::monostate{};
-}
-
-Result<OGRLayer*> OgrWriter::create_layer(const char* name, OGRwkbGeometryType type) {
-  std::vector<std::string> wanted;
-  if (driver_ == "ESRI Shapefile") wanted = {"DBF_DATE_LAST_UPDATE=" + file_date("%Y-%m-%d")};
-  // Its index would reorder the features; with a feature per radius there is nothing to search.
-  if (driver_ == "FlatGeobuf" && !options_.separate) wanted = {"SPATIAL_INDEX=NO"};
-  std::vector<char*> list;
-  for (std::string& option : wanted) list.push_back(option.data());
-  list.push_back(nullptr);
-  OGRLayer* layer = dataset_->CreateLayer(name, crs_.IsEmpty() ? nullptr : &crs_, type, list.data());
-  if (layer == nullptr) return failure("cannot be written");
-  return layer;
-}
-
-Status OgrWriter::add_fields(OGRLayer& layer, std::initializer_list<std::pair<const char*, OGRFieldType>> fields) {
-  for (const auto& [name, type] : fields) {
-    OGRFieldDefn field(name, type);
-    if (layer.CreateField(&field) != OGRERR_NONE) return failure(std::string("field ") + name + " cannot be written");
-  }
-  return std::monostate{};
-}
-
-Status OgrWriter::add_feature(OGRLayer& layer, OGRFeature& feature) {
-  messages_.clear();
-  if (layer.CreateFeature(&feature) != OGRERR_NONE || messages_.failed()) return failure("cannot be written");
-  return std::monostate{};
-}
 
 Status OgrWriter::write_zone(OGRLayer& layer, const Zone& zone, bool curves) {
   Linearizer linearizer(zone.radius(), max_error_for(options_, zone.radius()));
@@ -112,31 +58,34 @@ Status OgrWriter::write_zone(OGRLayer& layer, const Zone& zone, bool curves) {
   for (const ZoneFeature& from : zone_features(zone, options_.separate)) {
     if (context_.cancelled()) return interrupted_while_writing();
     OGRFeature feature(layer.GetLayerDefn());
-    feature.SetField("radius", from.radius);
-    feature.SetField("area", from.area);
-    feature.SetField("perimeter", from.perimeter);
-    feature.SetField("polygons", static_cast<int>(from.polygon_count));
-    feature.SetField("holes", static_cast<int>(from.holes));
+    if (dataset_.has_fields()) {
+      feature.SetField("radius", from.radius);
+      feature.SetField("area", from.area);
+      feature.SetField("perimeter", from.perimeter);
+      feature.SetField("polygons", static_cast<int>(from.polygon_count));
+      feature.SetField("holes", static_cast<int>(from.holes));
+    }
     auto geometry = curves ? curve_geometry(zone, from, options_.separate)
                            : linear_geometry(zone, from, options_.separate, linearizer, sense);
     ++features_;
     coordinates_ += coordinate_count(*geometry);
     feature.SetGeometryDirectly(geometry.release());
-    if (Status added = add_feature(layer, feature); !added) return added;
+    if (Status added = dataset_.add(layer, feature); !added) return added;
   }
   if (!curves) report_.deviation = std::max(report_.deviation.value_or(0), linearizer.deviation());
   return std::monostate{};
 }
 
 Status OgrWriter::write_zone_layer(std::span<const Zone> zones) {
-  bool curves = dataset_->TestCapability(ODsCCurveGeometries);
+  const bool curves = dataset_.can(ODsCCurveGeometries);
   OGRwkbGeometryType type = curves ? (options_.separate ? wkbCurvePolygon : wkbMultiSurface)
                                    : (options_.separate ? wkbPolygon : wkbMultiPolygon);
-  Result<OGRLayer*> layer = create_layer("zone", type);
+  std::vector<std::string> layer_options;
+  // Its index would reorder the features; with a feature per radius there is nothing to search.
+  if (driver_ == "FlatGeobuf" && !options_.separate) layer_options = {"SPATIAL_INDEX=NO"};
+  Result<OGRLayer*> layer = dataset_.create_layer("zone", type, {{"radius", OFTReal}, {"area", OFTReal}, {"perimeter", OFTReal},
+                                                  {"polygons", OFTInteger}, {"holes", OFTInteger}}, layer_options);
   if (!layer) return layer.error();
-  Status fields = add_fields(**layer, {{"radius", OFTReal}, {"area", OFTReal}, {"perimeter", OFTReal},
-                                       {"polygons", OFTInteger}, {"holes", OFTInteger}});
-  if (!fields) return fields;
   for (const Zone& zone : zones) {
     if (Status written = write_zone(**layer, zone, curves); !written) return written;
   }
@@ -155,16 +104,15 @@ Status OgrWriter::add_piece(OGRLayer& layer, const Zone& zone, std::uint32_t pie
   feature.SetField("source_vertex", static_cast<GIntBig>(source.vertex));
   feature.SetField("length", piece_length(from, zone.radius()));
   feature.SetGeometryDirectly(piece_geometry(zone, piece).release());
-  return add_feature(layer, feature);
+  return dataset_.add(layer, feature);
 }
 
 Status OgrWriter::write_pieces(std::span<const Zone> zones) {
-  Result<OGRLayer*> layer = create_layer("pieces", wkbCompoundCurve);
+  Result<OGRLayer*> layer = dataset_.create_layer("pieces", wkbCompoundCurve,
+                                                  {{"radius", OFTReal}, {"kind", OFTString}, {"source_feature", OFTInteger64},
+                                                   {"source_part", OFTInteger64}, {"source_vertex", OFTInteger64},
+                                                   {"length", OFTReal}});
   if (!layer) return layer.error();
-  Status fields = add_fields(**layer, {{"radius", OFTReal}, {"kind", OFTString}, {"source_feature", OFTInteger64},
-                                       {"source_part", OFTInteger64}, {"source_vertex", OFTInteger64},
-                                       {"length", OFTReal}});
-  if (!fields) return fields;
   std::size_t total = 0, done = 0;
   for (const Zone& zone : zones) total += zone.piece_count();
   for (const Zone& zone : zones) {
@@ -177,46 +125,33 @@ Status OgrWriter::write_pieces(std::span<const Zone> zones) {
   return std::monostate{};
 }
 
-Status OgrWriter::close(bool transaction) {
-  messages_.clear();
-  if (transaction && dataset_->CommitTransaction() != OGRERR_NONE) return failure("cannot be written");
-  dataset_->FlushCache(true);
-  dataset_.reset();
-  if (messages_.failed()) return failure("cannot be written");
-  return std::monostate{};
-}
-
 Status OgrWriter::read_back(const std::string& path) {
-  messages_.clear();
+  ogr::MessageCapture messages;
   // Only the coordinates are counted: which ring belongs to which polygon would cost quadratic time.
   ScopedOption unsorted("OGR_ORGANIZE_POLYGONS", "SKIP");
-  Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
-  if (!dataset || dataset->GetLayerCount() == 0) return failure("cannot be read back after writing");
+  std::unique_ptr<GDALDataset> dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  if (!dataset || dataset->GetLayerCount() == 0) return failure(messages, "cannot be read back after writing");
   std::size_t features = 0, coordinates = 0;
   for (const auto& feature : *dataset->GetLayer(0)) {
     if (context_.cancelled()) return interrupted_while_writing();
     ++features;
     if (const OGRGeometry* geometry = feature->GetGeometryRef()) coordinates += coordinate_count(*geometry);
   }
-  if (messages_.failed() || features != features_ || coordinates != coordinates_) {
-    return failure("is not complete after writing");
+  if (messages.failed() || features != features_ || coordinates != coordinates_) {
+    return failure(messages, "is not complete after writing");
   }
   return std::monostate{};
 }
 
 Status OgrWriter::write(const std::string& path, std::span<const Zone> zones) {
-  ScopedOption fixed_date("OGR_CURRENT_DATE", file_date("%Y-%m-%dT%H:%M:%S.000Z"));
-  // AtomicFile flushes the finished file once; until then it is nobody's.
-  ScopedOption lazy("OGR_SQLITE_SYNCHRONOUS", "OFF");
   // The driver would find out again, in quadratic time, which ring is a hole; write_zone gives rings their right sense.
   ScopedOption as_given("SHAPE_REWIND_ON_WRITE", "NO");
-  if (Status created = create(path); !created) return created;
-  bool transaction = dataset_->TestCapability(ODsCTransactions) && dataset_->StartTransaction() == OGRERR_NONE;
+  if (Status created = dataset_.create(path); !created) return created;
   if (Status written = write_zone_layer(zones); !written) return written;
   if (driver_ == "GPKG" && options_.pieces) {
     if (Status written = write_pieces(zones); !written) return written;
   }
-  if (Status closed = close(transaction); !closed) return closed;
+  if (Status closed = dataset_.close(); !closed) return closed;
   // SQLite tells of every failed write. Other drivers do not always.
   return driver_ == "GPKG" ? Status(std::monostate{}) : read_back(path);
 }

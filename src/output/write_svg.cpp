@@ -1,52 +1,21 @@
-// SVG: the zones as paths of lines and true arcs, the network they belong to above them.
+// SVG: the zones as paths of lines and true arcs, the networks they belong to above them.
 //
-// Coordinates are relative to the network's origin (viewers compute in single precision) and y points down:
+// Coordinates are relative to the (first) network's origin (viewers compute in single precision) and y points down:
 // x_svg = x - origin_x, y_svg = origin_y - y; the root element's data-origin tells the origin.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <numbers>
 
 #include "output/output_stream.hpp"
+#include "output/svg_text.hpp"
 #include "output/zone_writers.hpp"
 
 namespace krepl::output {
 
 namespace {
-
-// The centre of an SVG arc follows from its ends and radius, which is ill-conditioned near half a turn; up to a third of a
-// turn rounding is not amplified.
-constexpr double largest_arc = 2 * std::numbers::pi / 3;
-
-class SvgText {
- public:
-  explicit SvgText(Point origin) : origin_(origin) {}
-
-  void put(std::string_view s) { text_.append(s.data(), s.data() + s.size()); }
-  void put_absolute(char command, Point p) { put_relative(command, {p.x - origin_.x, p.y - origin_.y}); }
-  /// `p` relative to the origin, y upwards. Adding zero turns -0 into 0.
-  void put_relative(char command, Point p) {
-    fmt::format_to(std::back_inserter(text_), "{}{} {}", command, p.x, 0.0 - p.y);
-  }
-  void put_arc(double radius, Point end) {
-    // Counter-clockwise with y upwards is against the direction of increasing angles with y downwards: sweep flag 0.
-    fmt::format_to(std::back_inserter(text_), "A{0} {0} 0 0 0 {1} {2}", radius, end.x - origin_.x,
-                   0.0 - (end.y - origin_.y));
-  }
-  template <class... T>
-  void format(fmt::format_string<T...> pattern, T&&... values) {
-    fmt::format_to(std::back_inserter(text_), pattern, std::forward<T>(values)...);
-  }
-  void flush(OutputStream& stream) {
-    stream.write({text_.data(), text_.size()});
-    text_.clear();
-  }
-
- private:
-  Point origin_;
-  fmt::memory_buffer text_;
-};
 
 void put_ring(SvgText& text, const Zone& zone, std::uint32_t ring) {
   text.put_absolute('M', zone.piece(zone.ring_begin(ring)).start);
@@ -56,7 +25,7 @@ void put_ring(SvgText& text, const Zone& zone, std::uint32_t ring) {
       text.put_absolute('L', piece.end);
       continue;
     }
-    std::vector<Point> ends = arc_ends(piece, largest_arc);
+    std::vector<Point> ends = arc_ends(piece, largest_svg_arc);
     for (std::size_t i = 1; i < ends.size(); ++i) text.put_arc(zone.radius(), ends[i]);
   }
   text.put("Z");
@@ -84,7 +53,8 @@ Status put_network(SvgText& text, OutputStream& stream, const Network& network, 
     text.put("<path d=\"");
     std::span<const std::uint32_t> chain = network.part(part);
     for (std::size_t i = 0; i < chain.size(); ++i) {
-      text.put_relative(i == 0 ? 'M' : 'L', network.vertices()[chain[i]]);
+      const Point local = network.vertices()[chain[i]], origin = network.origin();
+      text.put_absolute(i == 0 ? 'M' : 'L', {origin.x + local.x, origin.y + local.y});
     }
     // A stroke of no length with round caps shows as a dot.
     text.put(chain.size() == 1 ? "h0" : network.part_is_ring(part) ? "Z" : "");
@@ -95,21 +65,25 @@ Status put_network(SvgText& text, OutputStream& stream, const Network& network, 
   return std::monostate{};
 }
 
-/// Largest extent of the network from its origin in each direction, grown by the largest radius: the zones' own box.
+/// The extent of all zones' networks, grown by the largest radius, relative to the origin.
 struct Box {
   double west = 0, south = 0, east = 0, north = 0;
 };
-Box box_of(const Network& network, double radius) {
-  Point first = network.vertices().front();
-  Box box{first.x, first.y, first.x, first.y};
-  for (const Point& v : network.vertices()) {
-    box = {std::min(box.west, v.x), std::min(box.south, v.y), std::max(box.east, v.x), std::max(box.north, v.y)};
+Box box_of(std::span<const Zone> zones, Point origin) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Box box{far, far, -far, -far};
+  for (const Zone& zone : zones) {
+    const double x = zone.network().origin().x - origin.x, y = zone.network().origin().y - origin.y, r = zone.radius();
+    for (const Point& v : zone.network().vertices()) {
+      box = {std::min(box.west, x + v.x - r), std::min(box.south, y + v.y - r), std::max(box.east, x + v.x + r),
+             std::max(box.north, y + v.y + r)};
+    }
   }
-  return {box.west - radius, box.south - radius, box.east + radius, box.north + radius};
+  return box;
 }
 
-void put_head(SvgText& text, const Network& network, double largest_radius) {
-  Box box = box_of(network, largest_radius);
+void put_head(SvgText& text, std::span<const Zone> zones, Point origin) {
+  Box box = box_of(zones, origin);
   double width = box.east - box.west, height = box.north - box.south, margin = 0.02 * std::max(width, height);
   width += 2 * margin;
   height += 2 * margin;
@@ -118,7 +92,7 @@ void put_head(SvgText& text, const Network& network, double largest_radius) {
   text.format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{} {} {} {}\" "
               "data-origin=\"{} {}\">\n",
               std::max(1.0, width * scale), std::max(1.0, height * scale), box.west - margin, 0.0 - box.north - margin,
-              width, height, network.origin().x, network.origin().y);
+              width, height, origin.x, origin.y);
   text.put("<style>path{vector-effect:non-scaling-stroke;stroke-linejoin:round;stroke-linecap:round}"
            ".zone path{fill:#3b82c4;fill-opacity:.3;fill-rule:evenodd;stroke:#1d4e7e;stroke-width:1}"
            ".input path{fill:none;stroke:#b3261e;stroke-width:1}</style>\n");
@@ -135,13 +109,18 @@ WriteResult write_svg(const std::string& path, std::span<const Zone> zones, cons
   for (const Zone& zone : zones) order.push_back(&zone);
   std::stable_sort(order.begin(), order.end(), [](const Zone* a, const Zone* b) { return a->radius() > b->radius(); });
 
-  const Network& network = order.front()->network();
-  SvgText text(network.origin());
-  put_head(text, network, order.front()->radius());
+  const Point origin = order.front()->network().origin();
+  SvgText text(origin);
+  put_head(text, zones, origin);
   for (const Zone* zone : order) {
     if (Status put = put_zone(text, *stream, *zone, context); !put) return put.error();
   }
-  if (Status put = put_network(text, *stream, network, context); !put) return put.error();
+  std::vector<const Network*> drawn;  // zones of one network follow each other
+  for (const Zone& zone : zones) {
+    if (!drawn.empty() && drawn.back() == &zone.network()) continue;
+    drawn.push_back(&zone.network());
+    if (Status put = put_network(text, *stream, zone.network(), context); !put) return put.error();
+  }
   text.put("</svg>\n");
   text.flush(*stream);
   if (Status finished = stream->finish(); !finished) return finished.error();

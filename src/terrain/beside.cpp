@@ -7,12 +7,23 @@ namespace krepl::terrain {
 
 using FeatureKind = Terrain::FeatureKind;
 
+/// Of patches that are equally high, the one that counts as seen.
+template <class Real>
+bool Envelope<Real>::precedes(Index a, Index b) const {
+  const Patch &f = patches_[a], &g = patches_[b];
+  if (f.kind != g.kind) return f.kind > g.kind;  // face, edge, vertex
+  // Of two edges in one line the one of which the other may be a part.
+  if (f.kind == FeatureKind::edge && f.length != g.length) return f.length > g.length;
+  return f.feature < g.feature;
+}
+
 /// Two edges that run beside or above each other, as seen from above. With u(b) = sqrt(R^2 - b^2) for the distance b
 /// from one axis and b + e from the other, and s between b / u(b) at the two, their heights differ by
 ///   level + (q_k - q_c) u(b) + q_c e s,
 /// where level and e are linear in the place. `least_up`: of u; what shows nearer to the wall does not matter.
+/// `allowed`: by how much the lower one may be higher.
 template <class Real>
-bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up) const {
+bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up, Real allowed) const {
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (c.kind != FeatureKind::edge || k.kind != FeatureKind::edge) return false;
   if (absolute(c.gx * k.gy - c.gy * k.gx) > 0x1p-8) return false;
@@ -67,7 +78,9 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
     const Real level = axis_height(upper, corner[i]) - axis_height(lower, corner[i]);
     for (const Real s : slope) {
       for (const Real u : up) {
-        if (!(level + (k.q - c.q) * u + c.q * apart[i] * s > noise_)) return false;
+        const Real over = level + (k.q - c.q) * u + c.q * apart[i] * s;
+        if (over > noise_ || (allowed > 0 && over >= -allowed)) continue;
+        if (!(over >= -noise_ && precedes(upper, lower))) return false;
       }
     }
   }

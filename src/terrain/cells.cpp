@@ -3,31 +3,11 @@
 #include <algorithm>
 
 namespace krepl::terrain {
-namespace {
-
-template <class Point, class Real = decltype(Point::x)>
-Real distance(Point p, Point a, Point b) {
-  const Real dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-  const Real t = square > 0 ? std::clamp<Real>(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0, 1) : Real(0);
-  return norm<Real>(p.x - a.x - t * dx, p.y - a.y - t * dy);
-}
-
-/// Of two segments whose ends lie on the border of a box, not crossing each other.
-template <class Point, class Real = decltype(Point::x)>
-Real distance(Point a, Point b, Point c, Point d) {
-  return std::min({distance(a, c, d), distance(b, c, d), distance(c, a, b), distance(d, a, b)});
-}
-
-}  // namespace
 
 template <class Real>
 Cells<Real>::Cells(CellMap& map, Envelope<Real>& envelope, SurfaceCounters& counters, const Context& context,
                    Cells<DoubleDouble>* finer)
-    : map_(map),
-      envelope_(envelope),
-      counters_(counters),
-      context_(context),
-      finer_(finer) {}
+    : map_(map), envelope_(envelope), counters_(counters), context_(context), finer_(finer) {}
 
 template <class Real>
 bool Cells<Real>::run(const Cell& cell, std::span<const Index> candidates) {
@@ -42,8 +22,10 @@ void Cells<Real>::walk(const Cell& cell) {
   turn_piece_.clear();
   Index previous = none, first_piece = none;
   const auto pass = [&](Index piece) {
-    if (previous == none) first_piece = piece;
-    else map_.unite(previous, piece);
+    if (previous == none)
+      first_piece = piece;
+    else
+      map_.unite(previous, piece);
     previous = piece;
   };
   const auto turn = [&](const CellSide& s, Index c, Index before, Index after, int side) {
@@ -88,25 +70,27 @@ bool Cells<Real>::subdivide(const Cell& cell, std::size_t first, int depth) {
       champions[count++] = label;
     }
   }
-  {
-    thread_local std::vector<Index> kept;
-    kept.clear();
-    envelope_.filter(cell.box, {champions.data(), std::size_t(count)}, {stack_.data() + first, begin - first}, kept);
-    stack_.insert(stack_.end(), kept.begin(), kept.end());
-  }
+  kept_.clear();
+  const std::size_t hidden = envelope_.filter(cell.box, {champions.data(), std::size_t(count)},
+                                              {stack_.data() + first, begin - first}, kept_, !cell.just_asked);
+  const bool just_asked = !cell.just_asked && kept_.size() > most_settled && 16 * hidden < kept_.size();
+  stack_.insert(stack_.end(), kept_.begin(), kept_.end());
   const bool smallest = cell.box.larger_side() <= envelope_.smallest_cell();
   bool done = true;
-  const std::span<const Index> left(stack_.data() + begin, stack_.size() - begin);
-  if ((!smallest && left.size() > most_settled) || !settle(cell, left, smallest)) {
-    done = finer_ != nullptr && left.size() <= most_settled && is_hard(cell.box) ? refine(cell, left)
-                                                                                   : split(cell, begin, depth);
+  const std::span<Index> kept(stack_.data() + begin, stack_.size() - begin);
+  if ((!smallest && kept.size() > most_settled) || !settle(cell, kept, smallest)) {
+    stack_.erase(std::remove(stack_.begin() + std::ptrdiff_t(begin), stack_.end(), none), stack_.end());
+    const std::span<const Index> left(stack_.data() + begin, stack_.size() - begin);
+    done = finer_ != nullptr && left.size() <= most_settled && is_hard(cell.box)
+               ? refine(cell, left)
+               : split(cell, begin, depth, just_asked);
   }
   stack_.resize(begin);
   return done;
 }
 
-/// True if double may not tell what is in a cell that has been walked around: in small ones where surfaces meet at small angles
-/// or are steep, in the smallest ones anyway.
+/// True if double may not tell what is in a cell that has been walked around: in small ones where surfaces meet at
+/// small angles or are steep, in the smallest ones anyway.
 template <class Real>
 bool Cells<Real>::is_hard(const Box& box) const {
   const Real size_of_cell = box.larger_side();
@@ -135,7 +119,7 @@ bool Cells<Real>::refine(const Cell& cell, std::span<const Index> candidates) {
 }
 
 template <class Real>
-bool Cells<Real>::split(const Cell& cell, std::size_t first, int depth) {
+bool Cells<Real>::split(const Cell& cell, std::size_t first, int depth, bool just_asked) {
   const Box& box = cell.box;
   const Cut where = cut(cell, {stack_.data() + first, stack_.size() - first});
   const bool vertical = where.vertical;
@@ -151,17 +135,21 @@ bool Cells<Real>::split(const Cell& cell, std::size_t first, int depth) {
     while (c < s.last && map_.crossings()[c].t <= at) ++c;
     return c;
   };
-  const auto label_at = [&](const CellSide& s, Index c) { return c == s.first ? s.label : map_.crossings()[c - 1].after; };
+  const auto label_at = [&](const CellSide& s, Index c) {
+    return c == s.first ? s.label : map_.crossings()[c - 1].after;
+  };
   const Index low_cut = first_beyond(low_side), high_cut = first_beyond(high_side);
   const Index start = label_at(low_side, low_cut), end = label_at(high_side, high_cut);
   found_.clear();
   const Real from = vertical ? box.low.y : box.low.x, to = vertical ? box.high.y : box.high.x;
-  envelope_.section(vertical, at, double(from), double(to), start, end, {stack_.data() + first, stack_.size() - first}, found_);
+  envelope_.section(vertical, at, double(from), double(to), start, end, {stack_.data() + first, stack_.size() - first},
+                    found_);
   const Index line = map_.add_line(vertical, at, start, found_);
   const Index first_crossing = map_.lines()[line].first_crossing;
   const CellSide middle{line, first_crossing, first_crossing + Index(found_.size()), start};
 
   Cell below = cell, above = cell;
+  below.just_asked = above.just_asked = just_asked;
   const int a = vertical ? 0 : 3, b = vertical ? 2 : 1;
   below.side[a].last = low_cut;
   below.side[b].last = high_cut;
@@ -178,7 +166,7 @@ bool Cells<Real>::split(const Cell& cell, std::size_t first, int depth) {
 }
 
 template <class Real>
-bool Cells<Real>::settle(const Cell& cell, std::span<const Index> candidates, bool smallest) {
+bool Cells<Real>::settle(const Cell& cell, std::span<Index> candidates, bool smallest) {
   walk(cell);
   if (!smallest && !shows_all(cell, candidates)) return false;
   const std::size_t n = turns_.size();
@@ -197,10 +185,11 @@ void Cells<Real>::connect(const Turn& a, const Turn& b) {
   map_.link(b.crossing, b.side, Link::crossing(a.crossing, a.side));
 }
 
-/// True if two patches cannot be equally high along a closed curve in the box. Inside it their heights would differ most where
-/// they have one normal, so that what the ball touches there is at one place in the plane. Of two spheres and of a sphere and a
-/// cylinder this is so nowhere, or all along an arc from rim to rim; of two cylinders it is a saddle, since each is straight in
-/// one direction; of a plane and a cylinder it is so nowhere or along a line. A plane can cut a cap off a sphere.
+/// True if two patches cannot be equally high along a closed curve in the box. Inside it their heights would differ
+/// most where they have one normal, so that what the ball touches there is at one place in the plane. Of two spheres
+/// and of a sphere and a cylinder this is so nowhere, or all along an arc from rim to rim; of two cylinders it is a
+/// saddle, since each is straight in one direction; of a plane and a cylinder it is so nowhere or along a line. A plane
+/// can cut a cap off a sphere.
 template <class Real>
 bool Cells<Real>::cannot_close(Index a, Index b, const Box& box) const {
   using Kind = Terrain::FeatureKind;
@@ -216,10 +205,18 @@ bool Cells<Real>::cannot_close(Index a, Index b, const Box& box) const {
   if (patches[a].kind != Kind::face && patches[b].kind != Kind::face) return true;
   if (patches[a].kind == Kind::edge || patches[b].kind == Kind::edge) return true;
   if (patches[a].kind == patches[b].kind) return false;
-  const Patch &face = patches[patches[a].kind == Kind::face ? a : b], &sphere = patches[patches[a].kind == Kind::face ? b : a];
+  const Patch &face = patches[patches[a].kind == Kind::face ? a : b],
+              &sphere = patches[patches[a].kind == Kind::face ? b : a];
   const Real reach = patches.radius() / face.q, slack = envelope_.smallest_cell();
   const Point top{sphere.at.x - face.gx * reach, sphere.at.y - face.gy * reach};
   return !Box{{box.low.x - slack, box.low.y - slack}, {box.high.x + slack, box.high.y + slack}}.contains(top);
+}
+
+/// Range of the derivative of the difference of two heights where both patches can be seen.
+template <class Real>
+RangeOf<Real> Cells<Real>::slope_of_difference(Index a, Index b, const Box& box, Gradient direction) const {
+  constexpr auto where = Envelope<Real>::Where::in_domain;
+  return envelope_.derivative_range(a, box, direction, where) - envelope_.derivative_range(b, box, direction, where);
 }
 
 /// True if the curve between the turn's labels cannot close inside the box: some direction is never along it.
@@ -229,8 +226,7 @@ bool Cells<Real>::curve_is_simple(const Turn& t, const Box& box) const {
     return box.larger_side() < envelope_.patches().radius();
   if (cannot_close(t.before, t.after, box)) return true;
   const auto never_along = [&](Real x, Real y) {
-    return (envelope_.derivative_range(t.before, box, {x, y}) - envelope_.derivative_range(t.after, box, {x, y}))
-        .excludes_zero();
+    return slope_of_difference(t.before, t.after, box, {x, y}).excludes_zero();
   };
   const auto is_simple = [](auto&& never) { return never(1, 0) || never(0, 1) || never(1, 1) || never(1, -1); };
   if (is_simple(never_along)) return true;
@@ -317,181 +313,20 @@ std::pair<Index, Index> Cells<Real>::sides_of_wall(const Turn& t) const {
   return is_wall_of(t, t.before) ? std::pair(t.before, t.after) : std::pair(t.after, t.before);
 }
 
-/// True if the curves of both turns are sides of one patch, which lies between them.
+/// True if each label shows in one run of the cell's boundary.
 template <class Real>
-bool Cells<Real>::sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const {
-  const auto is_side = [&](const Turn& turn) {
-    return turn.meeting != Meeting::valley || is_thin_bend(turn.before, turn.after, box);
-  };
-  if (!is_side(s) || !is_side(t)) return false;
-  for (const Index l : {s.before, s.after}) {
-    if (l == none || (l != t.before && l != t.after)) continue;
-    const auto own = [&](const Turn& turn) { return turn.meeting != Meeting::rim || is_wall_of(turn, l); };
-    if (own(s) && own(t)) {
-      patch = l;
-      return true;
-    }
-  }
-  return false;
-}
-
-/// True if the straight wall between two turns is nowhere reached by the other patch of the valley beside it: that one's height
-/// is concave, so its tangent bounds it, or it ends in a wall of its own before.
-template <class Real>
-bool Cells<Real>::wall_keeps_off(const Turn& from, const Turn& to, const Turn& valley) const {
-  const Index upper = sides_of_wall(from).first;
-  const Index other = valley.before == upper ? valley.after : valley.before;
-  if (valley.before != upper && valley.after != upper) return false;
-  const PatchSet<Real>& patches = envelope_.patches();
-  if (patches[upper].kind != Terrain::FeatureKind::edge) return false;
-  const Patch& f = patches[other];
-  const Real radius = patches.radius();
-  if (f.kind == Terrain::FeatureKind::vertex && distance(f.at, from.at, to.at) >= radius) return true;
-  if (f.kind == Terrain::FeatureKind::edge) {
-    const auto aside = [&](Point p) { return (p.y - f.at.y) * f.gx - (p.x - f.at.x) * f.gy; };
-    const Real a = aside(from.at), b = aside(to.at);
-    if (std::min(a, b) >= radius || std::max(a, b) <= -radius) return true;
-  }
-  const Point mid{(from.at.x + to.at.x) / 2, (from.at.y + to.at.y) / 2};
-  const Real h = envelope_.clamped_height(other, mid);
-  const Gradient g = patches.gradient(other, mid);
-  for (const Point p : {from.at, to.at}) {
-    if (!(h + g.x * (p.x - mid.x) + g.y * (p.y - mid.y) < envelope_.rim_height(upper, p))) return false;
-  }
-  return true;
-}
-
-template <class Real>
-bool Cells<Real>::corner_in(Index patch, const Box& box) const {
-  if (patch == none) return false;
-  const Real slack = envelope_.smallest_cell();
-  for (const Point c : envelope_.patches().corners(patch)) {
-    if (c.x >= box.low.x - slack && c.x <= box.high.x + slack && c.y >= box.low.y - slack && c.y <= box.high.y + slack)
-      return true;
-  }
-  return false;
-}
-
-/// True if a cylinder or sphere is nearly vertical at p.
-template <class Real>
-bool Cells<Real>::is_upright(Index patch, Point p) const {
-  const PatchSet<Real>& patches = envelope_.patches();
-  return patches[patch].kind != Terrain::FeatureKind::face && size(patches.gradient(patch, p)) > steep;
-}
-
-/// How far the curve from a turn to another place on it can be from its chord within the box; infinite if that is not known.
-///
-/// The function f that vanishes along it is zero at both ends, so where its derivative along the chord is within w of itself,
-/// |f| <= w / 4 times the chord's length; across it, f changes by at least its least derivative there.
-template <class Real>
-Real Cells<Real>::bend(const Turn& turn, Point end, const Box& box) const {
-  const Real dx = end.x - turn.at.x, dy = end.y - turn.at.y, length = square_root(dx * dx + dy * dy);
-  if (!(length > 0)) return 0;
-  const Gradient along{dx / length, dy / length}, across{-along.y, along.x};
-  const auto bent = [&](auto&& derivative) {
-    const Range a = derivative(along), b = derivative(across);
-    if (!b.excludes_zero()) return Real(std::numeric_limits<double>::infinity());
-    return (a.high - a.low) * length / (4 * std::min(absolute(b.low), absolute(b.high)));
-  };
-  if (turn.meeting != Meeting::valley) {
-    const Bound* side = side_along(turn);
-    if (side == nullptr) return std::numeric_limits<double>::infinity();
-    if (side->type == BoundType::line) return 0;
-    const GradientRange g = envelope_.bound_gradient_range(*side, box);
-    const Real least = bent([&](Gradient d) { return g.x * Range{d.x, d.x} + g.y * Range{d.y, d.y}; });
-    if (side->type != BoundType::cone || size(envelope_.bound_gradient(*side, turn.at)) < steep) return least;
-    return std::min(least, bent([&](Gradient d) { return envelope_.upright_derivative_range(*side, box, d); }));
-  }
-  Real least = bent([&](Gradient d) {
-    return envelope_.derivative_range(turn.before, box, d) - envelope_.derivative_range(turn.after, box, d);
-  });
-  for (const Index upright : {turn.before, turn.after}) {
-    if (!is_upright(upright, turn.at)) continue;
-    const Index other = upright == turn.before ? turn.after : turn.before;
-    least =
-        std::min(least, bent([&](Gradient d) { return envelope_.upright_derivative_range(upright, other, box, d); }));
-  }
-  return least;
-}
-
-/// Curves side by side: each pair of labels meets at exactly two turns, which nest like brackets.
-template <class Real>
-bool Cells<Real>::settle_strips(const Box& box) {
-  const std::size_t n = turns_.size();
-  if (n % 2 != 0) return false;
-  std::array<int, 16> mate;
-  if (n > mate.size()) return false;
-  mate.fill(-1);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 1; j < n; ++j) {
-      if (turns_[i].before != turns_[j].after || turns_[i].after != turns_[j].before) continue;
-      if (mate[i] >= 0 || mate[j] >= 0 || turns_[i].meeting != turns_[j].meeting) return false;
-      mate[i] = int(j);
-      mate[j] = int(i);
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    if (mate[i] < 0 || !curve_is_simple(turns_[i], box) || !stays_wall(turns_[i], turns_[std::size_t(mate[i])].at, box))
-      return false;
+bool Cells<Real>::labels_differ() const {
+  for (std::size_t i = 0; i < turns_.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const int a = std::min(int(i), mate[i]), b = std::max(int(i), mate[i]);
-      const bool in1 = a < int(j) && int(j) < b, in2 = a < mate[j] && mate[j] < b;
-      if (int(j) != mate[i] && in1 != in2) return false;
+      if (turns_[i].after == turns_[j].after) return false;
     }
-  }
-  // No two of the curves may meet.
-  const auto apart = [&](std::size_t i, std::size_t j) {
-    const Turn &s = turns_[i], &t = turns_[j], &s_end = turns_[std::size_t(mate[i])], &t_end = turns_[std::size_t(mate[j])];
-    Index patch = none;
-    if (sides_of_one_patch(s, t, box, patch)) return !corner_in(patch, box);  // they meet only there
-    if (s.meeting == Meeting::rim && t.meeting == Meeting::valley && wall_keeps_off(s, s_end, t)) return true;
-    if (t.meeting == Meeting::rim && s.meeting == Meeting::valley && wall_keeps_off(t, t_end, s)) return true;
-    for (const Turn* turn : {&s, &t}) {
-      if (turn->meeting != Meeting::valley && (corner_in(turn->before, box) || corner_in(turn->after, box))) return false;
-    }
-    if (envelope_.is_far() || is_fine<Real>) {
-      for (const Index l : {s.before, s.after}) {
-        if (l == none || (l != t.before && l != t.after)) continue;
-        const auto beyond = [&](const Turn& turn) {
-          if (turn.meeting == Meeting::rim) return none;
-          return turn.before == l ? turn.after : turn.before;
-        };
-        if ((s.meeting == Meeting::rim && !is_wall_of(s, l)) || (t.meeting == Meeting::rim && !is_wall_of(t, l))) continue;
-        if (envelope_.stay_apart(l, beyond(s), beyond(t), box)) return true;
-      }
-    }
-    // Closer than the tolerance they may touch: a seam and a valley that are tangent.
-    const Real room = std::max(distance(s.at, s_end.at, t.at, t_end.at), envelope_.tolerance());
-    return bend(s, s_end.at, box) + bend(t, t_end.at, box) < room;
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const Turn &s = turns_[i], &t = turns_[j];
-      if (int(j) == mate[i] || int(i) > mate[i] || int(j) > mate[j]) continue;
-      const bool share = s.before == t.before || s.before == t.after || s.after == t.before || s.after == t.after;
-      if (share && !apart(i, j)) return false;
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t j = std::size_t(mate[i]);
-    if (j < i) continue;
-    connect(turns_[i], turns_[j]);
-    // The run that ends at turn i goes on after turn j; the one that starts at turn i ends at turn j.
-    map_.unite(turn_piece_[i], turn_piece_[(j + 1) % n]);
-    map_.unite(turn_piece_[(i + 1) % n], turn_piece_[j]);
   }
   return true;
 }
 
 template <class Real>
 bool Cells<Real>::settle_star(const Box& box, bool smallest) {
-  if (!smallest) {
-    for (std::size_t i = 0; i < turns_.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        if (turns_[i].after == turns_[j].after) return false;
-      }
-    }
-  }
+  if (!smallest && !labels_differ()) return false;
   const std::optional<Point> found = star_point(box);
   if (!found && !smallest) return false;
   if (found && finer_ != nullptr && is_steep()) return false;
@@ -503,8 +338,8 @@ bool Cells<Real>::settle_star(const Box& box, bool smallest) {
   return true;
 }
 
-/// True if a face there is so steep that what the plane's tolerance leaves open is much on the surface; one that is vertical
-/// but for rounding is a wall.
+/// True if a face there is so steep that what the plane's tolerance leaves open is much on the surface; one that is
+/// vertical but for rounding is a wall.
 template <class Real>
 bool Cells<Real>::is_steep() const {
   const PatchSet<Real>& patches = envelope_.patches();
@@ -577,7 +412,8 @@ void Cells<Real>::add_vertex(Point at) {
   for (const Turn& t : turns_) {
     if (t.after == none) continue;
     // Near the rim heights fall like square roots; the rim's own height is as near to the surface.
-    const bool ends = std::any_of(turns_.begin(), turns_.end(), [&](const Turn& wall) { return is_wall_of(wall, t.after); });
+    const bool ends =
+        std::any_of(turns_.begin(), turns_.end(), [&](const Turn& wall) { return is_wall_of(wall, t.after); });
     z = std::max(z, ends ? envelope_.wall_height(t.after, at) : envelope_.border_height(t.after, at));
   }
   arms_.clear();

@@ -14,8 +14,8 @@ struct CellSide {
   Index line, first, last, label;
 };
 
-/// Cuts a tile into cells until each tells what is inside, and writes that into a CellMap. What double cannot tell in small
-/// cells is passed on to the same in twice the digits.
+/// Cuts a tile into cells until each tells what is inside, and writes that into a CellMap. What double cannot tell in
+/// small cells is passed on to the same in twice the digits.
 template <class Real>
 class Cells {
  public:
@@ -28,7 +28,8 @@ class Cells {
   using GradientRange = GradientRangeOf<Real>;
   struct Cell {
     Box box;
-    CellSide side[4];  ///< bottom, right, top, left, each in the direction of ascending coordinates
+    CellSide side[4];         ///< bottom, right, top, left, each in the direction of ascending coordinates
+    bool just_asked = false;  ///< next to nothing was hidden in the cell around: not to be asked again at once
   };
 
   /// `finer`: null for the last one.
@@ -42,10 +43,16 @@ class Cells {
   /// Where the boundary of a cell changes its label, counter-clockwise.
   struct Turn {
     Index crossing;
-    int side;       // of the crossing's line, on which the cell lies
+    int side;  // of the crossing's line, on which the cell lies
     Index before, after;
     Meeting meeting;
     Point at;
+  };
+
+  /// A curve from a turn to its mate, or to the vertex.
+  struct Strand {
+    std::size_t turn;
+    Point end;
   };
 
   struct Cut {
@@ -60,14 +67,20 @@ class Cells {
   Gradient steepness(const Box& box) const;
   std::optional<Cut> cut_between_strips(const Cell& cell);
   std::optional<Cut> cut_beside_wall(const Box& box) const;
+  std::optional<Cut> cut_between_vertices(const Box& box) const;
   void add_likely_vertices(const Box& box);
-  bool split(const Cell& cell, std::size_t first, int depth);
+  bool split(const Cell& cell, std::size_t first, int depth, bool just_asked);
   bool is_hard(const Box& box) const;
   bool refine(const Cell& cell, std::span<const Index> candidates);
   void walk(const Cell& cell);
-  bool settle(const Cell& cell, std::span<const Index> candidates, bool smallest);
+  bool settle(const Cell& cell, std::span<Index> candidates, bool smallest);
   bool settle_arc(const Box& box, bool smallest);
   bool settle_strips(const Box& box);
+  bool pair_turns();
+  std::optional<Point> vertex_of_star(const Box& box);
+  bool are_apart(const Strand& a, const Strand& b, std::optional<Point> vertex, const Box& box) const;
+  bool is_beside(const Strand& strand, Point vertex) const;
+  bool labels_differ() const;
   bool settle_star(const Box& box, bool smallest);
   std::optional<Point> star_point(const Box& box) const;
   bool is_steep() const;
@@ -81,13 +94,15 @@ class Cells {
   std::pair<Index, Index> sides_of_wall(const Turn& turn) const;
   const Bound* side_along(const Turn& turn) const;
   bool has_corner(Index patch, Point p) const;
+  bool is_covered(Point p) const;
   bool share_corner(Index a, Index b, Point p) const;
   bool curve_is_simple(const Turn& turn, const Box& box) const;
+  Range slope_of_difference(Index a, Index b, const Box& box, Gradient direction) const;
   bool stays_wall(const Turn& from, Point to, const Box& box) const;
   bool cannot_close(Index a, Index b, const Box& box) const;
   bool are_coplanar(Index a, Index b, const Box& box) const;
   bool sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const;
-  bool shows_all(const Cell& cell, std::span<const Index> candidates);
+  bool shows_all(const Cell& cell, std::span<Index> candidates);
   bool is_seen(Index label) const;
   bool is_thin(Index patch, Index a, Index b, const Box& box, Real width) const;
   std::optional<Point> end_of_thin_bend(const Box& box) const;
@@ -97,9 +112,18 @@ class Cells {
   bool all_are_prisms(std::span<const Index> candidates, const Box& box) const;
   bool is_hidden(Index patch, const Box& box) const;
   bool corner_in(Index patch, const Box& box) const;
+  bool may_end(const Turn& side, std::optional<Point> vertex, const Box& box) const;
+  template <class Condition>
+  bool has_corner_where(Index patch, const Box& box, const Condition& holds) const {
+    if (patch == none) return false;
+    const Real slack = envelope_.smallest_cell();
+    const Box wide{{box.low.x - slack, box.low.y - slack}, {box.high.x + slack, box.high.y + slack}};
+    const auto corners = envelope_.patches().corners(patch);
+    return std::any_of(corners.begin(), corners.end(), [&](Point c) { return wide.contains(c) && holds(c); });
+  }
   bool is_upright(Index patch, Point p) const;
   Real bend(const Turn& turn, Point end, const Box& box) const;
-  bool wall_keeps_off(const Turn& from, const Turn& to, const Turn& valley) const;
+  bool wall_keeps_off(const Turn& from, Point to, const Turn& valley) const;
   void connect(const Turn& a, const Turn& b);
   void add_vertex(Point at);
 
@@ -108,9 +132,12 @@ class Cells {
   SurfaceCounters& counters_;
   const Context& context_;
   Cells<DoubleDouble>* finer_;
-  std::vector<Index> stack_;   // candidates
+  std::vector<Index> stack_;                         // candidates
+  std::vector<Index> kept_;                          // of a cell, before they are added there
   std::array<std::vector<double>, 2> corner_place_;  // x and y of corners in a cell
   std::vector<Turn> turns_;
+  std::vector<int> mate_;          // per turn: the other end of its curve; -1: that ends in the vertex
+  std::vector<Turn> star_;         // turns without a mate
   std::vector<Index> seen_;        // labels around the cell
   std::vector<Index> turn_piece_;  // per turn: a piece of the run before it
   std::vector<LineCrossing> found_;

@@ -10,23 +10,26 @@ constexpr double near_middle = 0.48717, uneven = 0.4641;
 
 }  // namespace
 
-/// Between the corners of patches in the cell, which are vertices mostly, or else near the middle of the longer sides. Exactly
-/// in the middle is often a line of symmetry, along which curves run.
+/// Between the corners of patches in the cell, which are vertices mostly, or else near the middle of the longer sides.
+/// Exactly in the middle is often a line of symmetry, along which curves run.
 template <class Real>
 typename Cells<Real>::Cut Cells<Real>::cut(const Cell& cell, std::span<const Index> candidates) {
   const Box& box = cell.box;
   const bool far = envelope_.is_far();
-  if ((far || is_fine<Real>) && std::min(box.high.x - box.low.x, box.high.y - box.low.y) > envelope_.smallest_cell() / 64) {
+  if ((far || is_fine<Real>)&&std::min(box.high.x - box.low.x, box.high.y - box.low.y) >
+      envelope_.smallest_cell() / 64) {
     if (candidates.size() > most_settled) walk(cell);  // else its turns are known
     if (const std::optional<Cut> between = cut_between_strips(cell)) return *between;
     if (const std::optional<Cut> beside = far ? cut_beside_wall(box) : std::nullopt) return *beside;
   }
   const Real width = box.high.x - box.low.x, height = box.high.y - box.low.y;
-  const Gradient stretch = far ? steepness(box) : Gradient{1, 1};  // cells are square on the surface: it is steep near walls
+  const Gradient stretch =
+      far ? steepness(box) : Gradient{1, 1};  // cells are square on the surface: it is steep near walls
   const Real thinnest = envelope_.smallest_cell() / 64;
   Cut best{height <= thinnest || (width > thinnest && width * stretch.x >= height * stretch.y), 0};
   best.at = double(best.vertical ? box.low.x + near_middle * width : box.low.y + near_middle * height);
   if (candidates.size() > most_settled || std::min(width, height) <= thinnest) return best;
+  if (turns_.size() > 16 || !pair_turns()) star_.clear();
   for (std::vector<double>& t : corner_place_) t.clear();
   for (const Index c : candidates) {
     for (const Point p : envelope_.patches().corners(c)) {
@@ -35,6 +38,7 @@ typename Cells<Real>::Cut Cells<Real>::cut(const Cell& cell, std::span<const Ind
       corner_place_[1].push_back(double(p.y));
     }
   }
+  if (const std::optional<Cut> between = cut_between_vertices(box)) return *between;
   add_likely_vertices(box);
   if (corner_place_[0].size() < 2) return best;
   // The widest gap, but none that makes long thin cells.
@@ -94,8 +98,8 @@ std::optional<typename Cells<Real>::Cut> Cells<Real>::cut_between_strips(const C
   return found ? std::optional(Cut{vertical, at}) : std::nullopt;
 }
 
-/// Beside a straight wall: the surface is smooth in the height above it, the root of the distance, and cells are square in
-/// that.
+/// Beside a straight wall: the surface is smooth in the height above it, the root of the distance, and cells are square
+/// in that.
 template <class Real>
 std::optional<typename Cells<Real>::Cut> Cells<Real>::cut_beside_wall(const Box& box) const {
   const Real width = box.high.x - box.low.x, height = box.high.y - box.low.y;
@@ -109,10 +113,65 @@ std::optional<typename Cells<Real>::Cut> Cells<Real>::cut_beside_wall(const Box&
     const Real far = inside > 0 ? (upright ? box.high.x : box.high.y) - wall : wall - (upright ? box.low.x : box.low.y);
     if (!(far > 4 * envelope_.tolerance())) continue;
     const Real up = square_root(2 * envelope_.patches().radius() * far), along = upright ? height : width;
-    if (along > up) return Cut{!upright, double(upright ? box.low.y + near_middle * height : box.low.x + near_middle * width)};
+    if (along > up)
+      return Cut{!upright, double(upright ? box.low.y + near_middle * height : box.low.x + near_middle * width)};
     return Cut{upright, double(inside > 0 ? wall + far / 4 : wall - far / 4)};
   }
   return std::nullopt;
+}
+
+/// Between two vertices in a cell in which four curves or more end, as if these were straight: two neighbouring turns
+/// lead to each.
+template <class Real>
+std::optional<typename Cells<Real>::Cut> Cells<Real>::cut_between_vertices(const Box& box) const {
+  constexpr std::size_t most = 8;
+  const std::size_t n = star_.size();
+  if (n < 4 || n > most) return std::nullopt;
+  Gradient across[most];
+  for (std::size_t i = 0; i < n; ++i) {
+    const Turn& t = star_[i];
+    if (t.meeting == Meeting::rim) return std::nullopt;
+    across[i] = envelope_.gradient_across(t.before, t.after, t.meeting, t.at);
+  }
+  const auto next = [&](std::size_t i) { return i + 1 < n ? i + 1 : 0; };
+  std::optional<Point> vertex[most];  // where the curves of a turn and the next one meet
+  for (std::size_t i = 0; i < n; ++i) {
+    const Gradient g = across[i], h = across[next(i)];
+    const Point a = star_[i].at, b = star_[next(i)].at;
+    const Real det = g.x * h.y - g.y * h.x, at = h.x * (b.x - a.x) + h.y * (b.y - a.y);
+    if (det == 0) continue;
+    const Point p{a.x - g.y * (at / det), a.y + g.x * (at / det)};
+    if (box.contains(p)) vertex[i] = p;
+  }
+  const auto side = [](Point a, Point b, Point p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); };
+  const auto cross = [&](Point a, Point b, Point c, Point d) {
+    return (side(a, b, c) > 0) != (side(a, b, d) > 0) && (side(c, d, a) > 0) != (side(c, d, b) > 0);
+  };
+  const auto arms_cross = [&](std::size_t i, std::size_t j) {
+    for (const std::size_t a : {i, next(i)}) {
+      for (const std::size_t b : {j, next(j)}) {
+        if (cross(star_[a].at, *vertex[i], star_[b].at, *vertex[j])) return true;
+      }
+    }
+    return false;
+  };
+  Cut best{};
+  Real widest = 64 * envelope_.smallest_cell();
+  bool found = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 2; j < n && vertex[i]; ++j) {
+      if (next(j) == i || !vertex[j]) continue;
+      const Point v = *vertex[i], w = *vertex[j];
+      const Real dx = absolute(v.x - w.x), dy = absolute(v.y - w.y);
+      if (std::max(dx, dy) <= widest || arms_cross(i, j)) continue;
+      const bool vertical = dx > dy;
+      const Real from = vertical ? v.x : v.y, to = vertical ? w.x : w.y;
+      widest = std::max(dx, dy);
+      best = {vertical, double(from + uneven * (to - from))};
+      found = true;
+    }
+  }
+  return found ? std::optional(best) : std::nullopt;
 }
 
 /// Where seams meet the one valley through the cell, as if that were straight.

@@ -25,8 +25,10 @@ Envelope<Real>::Envelope(PatchSet<Real>& patches, double scale, SurfaceCounters&
 template <class Real>
 Envelope<DoubleDouble>* Envelope<Real>::finer(std::span<const Index> candidates, bool cells) const {
   if (finer_ == nullptr) return nullptr;
-  if (cells) finer_->patches_.load_with_corners(candidates);
-  else finer_->patches_.load(candidates);
+  if (cells)
+    finer_->patches_.load_with_corners(candidates);
+  else
+    finer_->patches_.load(candidates);
   return finer_;
 }
 
@@ -47,7 +49,8 @@ Index Envelope<Real>::winner(Point p, std::span<const Index> candidates, bool fi
     }
   }
   if (best == none || second == below_everything) return best;
-  // What rounding alone tells apart counts as equal: of coplanar triangles one over the other, both would show here and there.
+  // What rounding alone tells apart counts as equal: of coplanar triangles one over the other, both would show here and
+  // there.
   const Real lowest = highest - 4 * noise_ * (1 + size(patches_.gradient(best, p)));
   if (second < lowest) return best;
   thread_local std::vector<Index> equal;
@@ -56,10 +59,7 @@ Index Envelope<Real>::winner(Point p, std::span<const Index> candidates, bool fi
     if (patches_.contains(c, p) && patches_.extended_height(c, p) >= lowest) equal.push_back(c);
   }
   if (finely) return finer(equal)->winner({p.x, p.y}, equal);
-  return *std::min_element(equal.begin(), equal.end(), [&](Index c, Index d) {
-    const Patch &f = patches_[c], &g = patches_[d];
-    return f.kind != g.kind ? f.kind > g.kind : f.feature < g.feature;  // face, edge, vertex
-  });
+  return *std::min_element(equal.begin(), equal.end(), [&](Index c, Index d) { return precedes(c, d); });
 }
 
 template <class Real>
@@ -150,7 +150,8 @@ Meeting Envelope<Real>::meeting(Index a, Index b, Point p) const {
   }
   // Just before its end a patch falls steeply: where the other one is higher than its rim, it has met that one before.
   if (a_ends != b_ends && (a_ends ? difference < 0 : difference > 0)) return Meeting::valley;
-  const Gradient g = a_ends ? rim_gradient(a) : patches_.gradient(a, p), h = b_ends ? rim_gradient(b) : patches_.gradient(b, p);
+  const Gradient g = a_ends ? rim_gradient(a) : patches_.gradient(a, p),
+                 h = b_ends ? rim_gradient(b) : patches_.gradient(b, p);
   return absolute(difference) <= 64 * tolerance_ * (1 + norm(g.x - h.x, g.y - h.y)) ? Meeting::valley : Meeting::rim;
 }
 
@@ -158,13 +159,13 @@ template <class Real>
 GradientRangeOf<Real> Envelope<Real>::sphere_gradient(Point at, const Box& box, Real factor) const {
   const Range dx{box.low.x - at.x, box.high.x - at.x}, dy{box.low.y - at.y, box.high.y - at.y};
   const Real near_x = dx.low > 0    ? dx.low
-                        : dx.high < 0 ? -dx.high
-                                      : 0,
-               far_x = std::max(absolute(dx.low), absolute(dx.high));
+                      : dx.high < 0 ? -dx.high
+                                    : 0,
+             far_x = std::max(absolute(dx.low), absolute(dx.high));
   const Real near_y = dy.low > 0    ? dy.low
-                        : dy.high < 0 ? -dy.high
-                                      : 0,
-               far_y = std::max(absolute(dy.low), absolute(dy.high));
+                      : dy.high < 0 ? -dy.high
+                                    : 0,
+             far_y = std::max(absolute(dy.low), absolute(dy.high));
   const Real square = patches_.square_radius(), least = least_square * square;
   const Real most = square - (near_x * near_x + near_y * near_y), fewest = square - (far_x * far_x + far_y * far_y);
   const Range inverse{1 / square_root(std::max(least, most)), 1 / square_root(std::max(least, fewest))};
@@ -172,35 +173,55 @@ GradientRangeOf<Real> Envelope<Real>::sphere_gradient(Point at, const Box& box, 
   return {dx * inverse * f, dy * inverse * f};
 }
 
+/// Of the coordinate across an edge, left of its axis.
 template <class Real>
-GradientRangeOf<Real> Envelope<Real>::gradient_range(Index i, const Box& box) const {
+RangeOf<Real> Envelope<Real>::aside_range(Index i, const Box& box, Where where) const {
   const Patch& f = patches_[i];
-  if (f.kind == FeatureKind::face) return {{f.gx, f.gx}, {f.gy, f.gy}};
-  if (f.kind == FeatureKind::vertex) return sphere_gradient(f.at, box, 1);
   const Point mid = box.middle();
   const Real aside = (mid.y - f.at.y) * f.gx - (mid.x - f.at.x) * f.gy;
   const Real spread = absolute(f.gx) * box.half_y() + absolute(f.gy) * box.half_x();
+  Range r{aside - spread, aside + spread};
+  if (where == Where::in_domain) {
+    const std::span<const Bound> sides = patches_.bounds(i).first(2);  // the straight ones
+    const Real low = std::min(sides[0].c, sides[1].c) - tolerance_,
+               high = std::max(sides[0].c, sides[1].c) + tolerance_;
+    r = {std::clamp(r.low, low, high), std::clamp(r.high, low, high)};
+  }
+  return r;
+}
+
+template <class Real>
+RangeOf<Real> Envelope<Real>::slope_across(Index i, const Box& box, Where where) const {
   const Real square = patches_.square_radius(), least = least_square * square;
-  const auto across = [&](Real beta) { return -f.q * beta / square_root(std::max(least, square - beta * beta)); };
-  const Range a{across(aside + spread), across(aside - spread)};
+  const auto across = [&](Real beta) {
+    return -patches_[i].q * beta / square_root(std::max(least, square - beta * beta));
+  };
+  const Range aside = aside_range(i, box, where);
+  return {across(aside.high), across(aside.low)};
+}
+
+template <class Real>
+GradientRangeOf<Real> Envelope<Real>::gradient_range(Index i, const Box& box, Where where) const {
+  const Patch& f = patches_[i];
+  if (f.kind == FeatureKind::face) return {{f.gx, f.gx}, {f.gy, f.gy}};
+  if (f.kind == FeatureKind::vertex) {
+    const Box part = where == Where::in_domain ? box.intersection(patches_.box(i)) : box;
+    return sphere_gradient(f.at, part.is_empty() ? box : part, 1);
+  }
+  const Range a = slope_across(i, box, where);
   const Range along{f.m * f.gx, f.m * f.gx}, along_y{f.m * f.gy, f.m * f.gy};
   return {along + a * Range{-f.gy, -f.gy}, along_y + a * Range{f.gx, f.gx}};
 }
 
 template <class Real>
-RangeOf<Real> Envelope<Real>::derivative_range(Index i, const Box& box, Gradient d) const {
+RangeOf<Real> Envelope<Real>::derivative_range(Index i, const Box& box, Gradient d, Where where) const {
   const Patch& f = patches_[i];
   if (f.kind != FeatureKind::edge) {
-    const GradientRange g = gradient_range(i, box);
+    const GradientRange g = gradient_range(i, box, where);
     return g.x * Range{d.x, d.x} + g.y * Range{d.y, d.y};
   }
-  const Point mid = box.middle();
-  const Real aside = (mid.y - f.at.y) * f.gx - (mid.x - f.at.x) * f.gy;
-  const Real spread = absolute(f.gx) * box.half_y() + absolute(f.gy) * box.half_x();
-  const Real square = patches_.square_radius(), least = least_square * square;
-  const auto across = [&](Real beta) { return -f.q * beta / square_root(std::max(least, square - beta * beta)); };
   const Real along = f.m * (f.gx * d.x + f.gy * d.y), aslant = d.y * f.gx - d.x * f.gy;
-  return Range{across(aside + spread), across(aside - spread)} * Range{aslant, aslant} + Range{along, along};
+  return slope_across(i, box, where) * Range{aslant, aslant} + Range{along, along};
 }
 
 template <class Real>
@@ -250,7 +271,8 @@ template <class Real>
 GradientRangeOf<Real> Envelope<Real>::bound_gradient_range(const Bound& b, const Box& box) const {
   if (b.type == BoundType::line) return {{b.nx, b.nx}, {b.ny, b.ny}};
   if (b.type == BoundType::disc) {
-    return {{2 * (box.low.x - b.at.x), 2 * (box.high.x - b.at.x)}, {2 * (box.low.y - b.at.y), 2 * (box.high.y - b.at.y)}};
+    return {{2 * (box.low.x - b.at.x), 2 * (box.high.x - b.at.x)},
+            {2 * (box.low.y - b.at.y), 2 * (box.high.y - b.at.y)}};
   }
   const GradientRange s = sphere_gradient(b.at, box, b.c);
   return {s.x + Range{b.nx, b.nx}, s.y + Range{b.ny, b.ny}};

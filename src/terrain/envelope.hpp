@@ -21,8 +21,8 @@ struct LineCrossing {
 /// The upper envelope of a set of patches over a region: which candidates can appear at all, which one is highest at a
 /// place, and in what order they appear along a line.
 ///
-/// In double it passes on to a `finer` one what it cannot tell: which of several patches of nearly one height is highest, where
-/// labels change within a short stretch of a line, and where two surfaces meet at a small angle.
+/// In double it passes on to a `finer` one what it cannot tell: which of several patches of nearly one height is
+/// highest, where labels change within a short stretch of a line, and where two surfaces meet at a small angle.
 template <class Real>
 class Envelope {
  public:
@@ -54,14 +54,15 @@ class Envelope {
   /// True if R is at least the extent.
   bool is_far() const { return far_; }
 
-  /// Highest candidate at p, among equals a face before an edge before a vertex, then the lowest feature number; none
-  /// if no patch lies over p.
+  /// Highest candidate at p, among equals a face before an edge before a vertex, then the longest edge, then the lowest
+  /// feature number; none if no patch lies over p.
   Index winner(Point p, std::span<const Index> candidates) const { return winner(p, candidates, finer_ != nullptr); }
 
-  /// Appends to `out` the candidates that may appear in the box: those whose domain meets it and that are not hidden below the
-  /// bodies of the champions. Champions that are candidates are kept wherever their domain meets the box.
-  void filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
-              std::vector<Index>& out) const;
+  /// Appends to `out` the candidates that may appear in the box: those whose domain meets it and that are not hidden
+  /// below the bodies of the champions. Champions that are candidates are kept wherever their domain meets the box.
+  /// Without `also_hidden` what is hidden is kept, too. Returns how many are hidden.
+  std::size_t filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
+                     std::vector<Index>& out, bool also_hidden = true) const;
 
   /// True if the patch is certainly not seen in the box: each part of it, halved up to `depth` times, lies outside the
   /// domain or below the bodies of the labels, at most four.
@@ -76,16 +77,18 @@ class Envelope {
   /// True if all of the box lies on the patch's side of the bound.
   bool covers(const Bound& bound, const Box& box) const;
 
-  /// Labels along an axis-parallel line: appends crossings with t ascending to `out`. `start` and `end` are the labels at
-  /// the two ends, where t is x or y.
-  void section(bool vertical, double at, double from, double to, Index start, Index end, std::span<const Index> candidates,
-               std::vector<LineCrossing>& out);
+  /// Labels along an axis-parallel line: appends crossings with t ascending to `out`. `start` and `end` are the labels
+  /// at the two ends, where t is x or y.
+  void section(bool vertical, double at, double from, double to, Index start, Index end,
+               std::span<const Index> candidates, std::vector<LineCrossing>& out);
 
   Range bound_range(const Bound& bound, const Box& box) const;
   GradientRange bound_gradient_range(const Bound& bound, const Box& box) const;
-  GradientRange gradient_range(Index patch, const Box& box) const;
+  /// Over all of a box, or only over the part of it that is in the patch's domain, or in a convex set around that.
+  enum class Where : std::uint8_t { in_box, in_domain };
+  GradientRange gradient_range(Index patch, const Box& box, Where where = Where::in_box) const;
   /// Of the derivative of extended_height along a direction of the plane.
-  Range derivative_range(Index patch, const Box& box, Gradient direction) const;
+  Range derivative_range(Index patch, const Box& box, Gradient direction, Where where = Where::in_box) const;
   /// The same of a function that vanishes where a cylinder or sphere is as high as the other patch, and is smooth where
   /// it is upright: half of a^2 + b^2 - R^2, with a the distance from its axis and b the other patch's height over the
   /// axis, measured across it.
@@ -128,6 +131,8 @@ class Envelope {
     Bound outline;
     Real lowered;
   };
+  Range aside_range(Index edge, const Box& box, Where where) const;
+  Range slope_across(Index edge, const Box& box, Where where) const;
   void section(const Line& line, Real t0, Index l0, Real t1, Index l1, std::size_t first, int depth);
   void drop_slivers(const Line& line, Index start, std::size_t first, std::vector<LineCrossing>& crossings) const;
   bool gap(const Line& line, Real t0, Index l0, Real t1, Index l1) const;
@@ -146,8 +151,9 @@ class Envelope {
   std::optional<Wall> wall_through(Index patch, const BoxFrame& box) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
   Real axis_height(Index edge, Point p) const;
+  bool precedes(Index a, Index b) const;
   bool lies_in(Index lower, Index upper) const;
-  bool hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up = 0) const;
+  bool hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up = 0, Real allowed = 0) const;
   bool hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const;
   struct Vector {
     Real x, y, z;
@@ -157,12 +163,13 @@ class Envelope {
   bool hidden_by_feature(Index lower, std::span<const Index> uppers, const BoxFrame& frame) const;
   bool hidden_by_axis(Index lower, Index upper, const Box& box) const;
   bool hidden_by_balls(Index patch, std::span<const Index> labels, const Box& box) const;
-  bool curve_function(Index own, Index other, std::span<const Vector> places, std::span<const Vector> normals, Real* value,
-                      Real& slack) const;
+  bool curve_function(Index own, Index other, std::span<const Vector> places, std::span<const Vector> normals,
+                      Real* value, Real& slack) const;
   Real outside(const Bound& wall, Point p) const;
   Real inset_of(Index body, const Wall& wall, const Box& box, const Real (&plane)[4]) const;
   bool hidden_beyond(Index patch, const Wall& wall, Real inset, std::span<const Index> others,
                      const BoxFrame& frame) const;
+  bool beside_beyond(Index patch, const Bound& wall, Real inset, std::span<const Index> others, const Box& box) const;
   bool back_to_back(const Bound& a, const Bound& b, const Box& box, Real inset) const;
   bool domain_covers(Index patch, const BoxFrame& box) const;
   bool domain_meets(Index patch, const BoxFrame& box) const;

@@ -25,8 +25,8 @@ inline bool Envelope<Real>::domain_meets(Index i, const BoxFrame& box) const {
   return f.kind != FeatureKind::edge || !f.has_rim || axis_meets(i, box);
 }
 
-/// True if all of a small box lies beyond a cone, by tangent planes: they tell more than bounds of each term where these nearly
-/// cancel out.
+/// True if all of a small box lies beyond a cone, by tangent planes: they tell more than bounds of each term where
+/// these nearly cancel out.
 template <class Real>
 bool Envelope<Real>::lies_beyond(const Bound& b, const BoxFrame& f) const {
   const Real square = patches_.square_radius();
@@ -75,7 +75,9 @@ bool Envelope<Real>::domain_meets(Index i, const Box& box) const {
 }
 
 template <class Real>
-bool Envelope<Real>::covers(const Bound& b, const Box& box) const { return is_within(b, BoxFrame(box)); }
+bool Envelope<Real>::covers(const Bound& b, const Box& box) const {
+  return is_within(b, BoxFrame(box));
+}
 
 /// Where a tangent plane bounds the patch well over a box: in its middle, but not closer to the rim than the box is
 /// wide, unless all of the box is. Beside the rim heights fall like square roots, and what matters is how far inside
@@ -130,7 +132,8 @@ inline typename Envelope<Real>::Plane Envelope<Real>::support(Index i, const Box
 
 /// A steep face that rises towards one of its own sides is not above its height there.
 template <class Real>
-typename Envelope<Real>::Plane Envelope<Real>::support_of_steep(Index i, const Plane& whole, const BoxFrame& box) const {
+typename Envelope<Real>::Plane Envelope<Real>::support_of_steep(Index i, const Plane& whole,
+                                                                const BoxFrame& box) const {
   const Patch& f = patches_[i];
   const auto highest = [&](const Plane& t) {
     return t.height + absolute(t.gradient.x) * box.hx + absolute(t.gradient.y) * box.hy;
@@ -189,6 +192,21 @@ class Envelope<Real>::Cover {
     return envelope_.is_steep(f) && hides(c, envelope_.plane_of(f, frame_.mid));
   }
 
+  /// The same of a cylinder or sphere, which beside a wall no tangent plane bounds well: all of its patch lies on one side of
+  /// the plane through each vertex orthogonal to the edge.
+  bool hides_within_ends(Index c) {
+    const Patch& f = envelope_.patches_[c];
+    if (f.kind == FeatureKind::face) return false;
+    for (const Bound& b : envelope_.patches_.bounds(c)) {
+      if (b.type != BoundType::cone || !(b.sign() * b.c > 0)) continue;
+      const Gradient slope{-b.nx / b.c, -b.ny / b.c};
+      const Real z = f.kind == FeatureKind::edge ? envelope_.axis_height(c, b.at) : f.z;
+      const Real height = z + slope.x * (frame_.mid.x - b.at.x) + slope.y * (frame_.mid.y - b.at.y);
+      if (hides(c, Plane{height, slope})) return true;
+    }
+    return false;
+  }
+
  private:
   /// The same, if it lies below the given plane.
   bool hides(Index c, const Plane& plane) {
@@ -208,8 +226,8 @@ class Envelope<Real>::Cover {
   using Masks = std::array<unsigned, most>;  // per body: at which corners it is higher
   struct Body {
     Index label;
-    std::optional<Wall> wall;     // where the body ends within the box
-    Real height[4];             // with a wall: of its rim
+    std::optional<Wall> wall;  // where the body ends within the box
+    Real height[4];            // with a wall: of its rim
     unsigned known = 0;
     bool ends = false;
     enum class Covers : std::uint8_t { unknown, no, yes } covers = Covers::unknown;
@@ -225,8 +243,8 @@ class Envelope<Real>::Cover {
     }
     if (b.height[i] - noise_ > t) return true;
     if (b.ends || !(b.height[i] + noise_ > t)) return false;
-    // A patch over all of the box may hide what sticks out by less than matters. One that is not might be hidden itself, as
-    // part of another's body, by what it would hide: then only what is clearly lower.
+    // A patch over all of the box may hide what sticks out by less than matters. One that is not might be hidden
+    // itself, as part of another's body, by what it would hide: then only what is clearly lower.
     if (b.covers == Body::Covers::unknown) {
       b.covers = envelope_.domain_covers(b.label, frame_) ? Body::Covers::yes : Body::Covers::no;
     }
@@ -296,9 +314,12 @@ class Envelope<Real>::Cover {
     Real low = 0, high = 1;
     for (int i = 0; i < 4; i += step_) {
       const Real slope = a.height[i] - b.height[i], need = t[i] + noise_ - b.height[i];
-      if (slope > 0) low = std::max(low, need / slope);
-      else if (slope < 0) high = std::min(high, need / slope);
-      else if (need >= 0) return false;
+      if (slope > 0)
+        low = std::max(low, need / slope);
+      else if (slope < 0)
+        high = std::min(high, need / slope);
+      else if (need >= 0)
+        return false;
     }
     return low < high;
   }
@@ -313,8 +334,8 @@ class Envelope<Real>::Cover {
 };
 
 template <class Real>
-void Envelope<Real>::filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
-                      std::vector<Index>& out) const {
+std::size_t Envelope<Real>::filter(const Box& box, std::span<const Index> champions, std::span<const Index> candidates,
+                                   std::vector<Index>& out, bool also_hidden) const {
   const BoxFrame frame(box);
   // Where the box is large beside R nothing is hidden below one body.
   const bool small = box.larger_side() < 2 * patches_.radius();
@@ -326,17 +347,19 @@ void Envelope<Real>::filter(const Box& box, std::span<const Index> champions, st
   };
   bool others = false;
   for (const Index c : candidates) {
-    if (!patches_.box(c).meets(box)) continue;
-    // A champion is seen at a corner: only a wall can keep it from mattering.
+    const Box& around = patches_.box(c);
+    if (!around.meets(box)) continue;
+    // A champion is seen at a corner: only a wall can keep it from mattering. All of a domain meets the box anyway.
     const bool seen = is_champion(c);
-    if ((!seen || patches_[c].has_rim) && !domain_meets(c, frame)) continue;
+    if ((!seen || patches_[c].has_rim) && !box.contains(around) && !domain_meets(c, frame)) continue;
     others = others || !seen;
     out.push_back(c);
   }
-  if ((!small && !far_) || !others) return;
+  if ((!small && !far_) || !others || !also_hidden) return 0;
 
   // Of features that lie beside each other as in grids little else is left in large boxes.
-  const bool by_feature = box.larger_side() < (patches_.are_of_graph() ? patches_.radius() / 64 : 2 * patches_.radius());
+  const bool by_feature =
+      box.larger_side() < (patches_.are_of_graph() ? patches_.radius() / 64 : 2 * patches_.radius());
   Cover cover(*this, frame, champions);
   const auto is_hidden = [&](Index c) {
     if (small && cover.hides(c)) return true;
@@ -348,7 +371,9 @@ void Envelope<Real>::filter(const Box& box, std::span<const Index> champions, st
     const Index c = out[i];
     if (is_champion(c) || !is_hidden(c)) out[kept++] = c;
   }
+  const std::size_t hidden = out.size() - kept;
   out.resize(kept);
+  return hidden;
 }
 
 template <class Real>
@@ -358,13 +383,15 @@ bool Envelope<Real>::stays_hidden(Index c, const Box& box, std::span<const Index
   const BoxFrame frame(part);
   if (!domain_meets(c, frame)) return true;
   Cover cover(*this, frame, labels);
-  if (cover.hides(c)) return true;
+  if (cover.hides(c) || (is_fine<Real> && cover.hides_within_ends(c))) return true;
   if (far_ && hidden_by_balls(c, labels, part)) return true;
   if (is_fine<Real> && hidden_by_feature(c, labels, frame)) return true;
   if (depth == 0) return false;
   Box first = part, second = part;
-  if (frame.hx > frame.hy) first.high.x = second.low.x = frame.mid.x;
-  else first.high.y = second.low.y = frame.mid.y;
+  if (frame.hx > frame.hy)
+    first.high.x = second.low.x = frame.mid.x;
+  else
+    first.high.y = second.low.y = frame.mid.y;
   return stays_hidden(c, first, labels, depth - 1) && stays_hidden(c, second, labels, depth - 1);
 }
 
@@ -403,6 +430,7 @@ bool Envelope<Real>::hidden_within_tolerance(Index i, std::span<const Index> upp
     inset[walls] = inset_of(uppers[u], *end, box, t);
     if (!is_finite(inset[walls])) continue;
     if (is_fine<Real> && hidden_beyond(i, *end, inset[walls], uppers, frame)) return true;
+    if (beside_beyond(i, end->outline, inset[walls], uppers, box)) return true;
     for (std::size_t w = 0; w < walls; ++w) {
       if (back_to_back(wall[w], end->outline, box, inset[w] + inset[walls])) return true;
     }
@@ -413,9 +441,12 @@ bool Envelope<Real>::hidden_within_tolerance(Index i, std::span<const Index> upp
       Real low = 0, high = 1;  // weights of a that are enough
       for (int k = 0; k < 4; ++k) {
         const Real slope = above[a][k] - above[b][k];
-        if (slope > 0) low = std::max(low, -above[b][k] / slope);
-        else if (slope < 0) high = std::min(high, -above[b][k] / slope);
-        else if (above[b][k] < 0) high = -1;
+        if (slope > 0)
+          low = std::max(low, -above[b][k] / slope);
+        else if (slope < 0)
+          high = std::min(high, -above[b][k] / slope);
+        else if (above[b][k] < 0)
+          high = -1;
       }
       if (low <= high) return true;
     }

@@ -86,6 +86,7 @@ struct BoxOf {
   /// Counter-clockwise from the lowest.
   std::array<Point, 4> corners() const { return {low, {high.x, low.y}, high, {low.x, high.y}}; }
   bool contains(Point p) const { return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y; }
+  bool contains(const BoxOf& b) const { return contains(b.low) && contains(b.high); }
   BoxOf intersection(const BoxOf& b) const {
     return {{std::max(low.x, b.low.x), std::max(low.y, b.low.y)}, {std::min(high.x, b.high.x), std::min(high.y, b.high.y)}};
   }

@@ -85,24 +85,27 @@ Vector3<Real> normal_of(Point3 a, Point3 b, Point3 c) {
 
 }  // namespace
 
-/// The normals that a ball touching a vertex from above can have: a convex polygon on the upper unit hemisphere, the part where
-/// u . d <= 0 for the directions d of all edges. Its sides belong to convex edges or to the horizon.
+/// The normals that a ball touching a vertex from above can have: a convex polygon on the upper unit hemisphere, the
+/// part where u . d <= 0 for the directions d of all edges. Its sides belong to convex edges or to the horizon.
 template <class Real>
 class PatchSet<Real>::NormalPolygon {
  public:
   using Vector = Vector3<Real>;
-  static constexpr int most = 64;
 
+  void clear() {
+    direction_.clear();
+    side_.clear();
+    corner_.clear();
+  }
   void add_edge(Vector direction, bool convex) {
-    if (count_ >= most) return;
-    direction_[count_++] = direction;
-    if (convex) side_[sides_++] = direction;
+    direction_.push_back(direction);
+    if (convex) side_.push_back(direction);
   }
   /// Finds the corners.
   void close() {
-    side_[sides_++] = {0, 0, -1};
-    for (int i = 0; i < sides_; ++i) {
-      for (int j = 0; j < i; ++j) {
+    side_.push_back({0, 0, -1});
+    for (std::size_t i = 0; i < side_.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
         const Vector u = cross(side_[i], side_[j]);
         const Real l = length(u);
         if (!(l > 0)) continue;
@@ -116,40 +119,42 @@ class PatchSet<Real>::NormalPolygon {
   }
   /// False if it has no inside wider than flat_angle.
   bool has_inside() const {
-    if (corners_ < 2) return false;
+    if (corner_.size() < 2) return false;
     Vector middle{0, 0, 0};
-    for (int i = 0; i < corners_; ++i) middle = middle + corner_[i];
+    for (const Vector c : corner_) middle = middle + c;
     if (is_inside(middle)) return true;
     // Two opposite corners: between the two sides that meet in both.
-    for (int i = 0; i < sides_; ++i) {
-      for (int j = 0; j < i; ++j) {
+    for (std::size_t i = 0; i < side_.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
         if (is_inside(-(side_[i] + side_[j]))) return true;
       }
     }
     return false;
   }
-  std::span<const Vector> corners() const { return {corner_.data(), std::size_t(corners_)}; }
+  std::span<const Vector> corners() const { return corner_; }
 
  private:
   void add_corner(Vector u, Real slack) {
-    if (corners_ >= most || u.z < -slack) return;
-    for (int i = 0; i < count_; ++i) {
-      if (dot(u, direction_[i]) > slack) return;
+    if (u.z < -slack) return;
+    for (const Vector d : direction_) {
+      if (dot(u, d) > slack) return;
     }
-    corner_[corners_++] = u;
+    // Edges in one plane all give the same.
+    for (const Vector c : corner_) {
+      if (dot(u - c, u - c) <= slack * slack) return;
+    }
+    corner_.push_back(u);
   }
   bool is_inside(Vector u) const {
     const Real least = flat_angle * length(u);
     if (!(u.z > least)) return false;
-    for (int i = 0; i < count_; ++i) {
-      if (!(dot(u, direction_[i]) < -least)) return false;
+    for (const Vector d : direction_) {
+      if (!(dot(u, d) < -least)) return false;
     }
     return true;
   }
 
-  std::array<Vector, most> direction_, corner_;
-  std::array<Vector, most + 1> side_;
-  int count_ = 0, sides_ = 0, corners_ = 0;
+  std::vector<Vector> direction_, side_, corner_;
 };
 
 template <class Real>
@@ -326,7 +331,8 @@ typename PatchSet<Real>::Limit PatchSet<Real>::limit(Index i, Index f) const {
   if (face.vertical) aside = 0;
   if (aside == 0) return {0, 0, Limit::Side::upright, up > 0};
   const Real size = norm(aside, up);
-  return {(aside > 0 ? -up : up) / size, absolute(aside) / size, aside > 0 ? Limit::Side::left : Limit::Side::right, false};
+  return {(aside > 0 ? -up : up) / size, absolute(aside) / size, aside > 0 ? Limit::Side::left : Limit::Side::right,
+          false};
 }
 
 /// Which normals the triangles at an edge leave free (engines.md, section 3).
@@ -355,23 +361,34 @@ BoundOf<Real> PatchSet<Real>::bound(const Patch& p, BoundSource source, Index ed
   const EdgeFrame& e = edges_[edge];
   Bound b{e.a, -e.gy, e.gx, 0, BoundType::line, false, none, false, source, edge};
   switch (source) {
-    case BoundSource::low: b.c = radius_ * e.lo; break;
-    case BoundSource::high: b.c = radius_ * e.hi; break;
-    case BoundSource::middle: b.c = radius_ * (e.lo + e.hi) / 2; break;
-    case BoundSource::face: b.c = radius_ * (p.gx * e.gy - p.gy * e.gx) / p.q; break;
-    case BoundSource::start: return {e.a, e.gx, e.gy, e.m, BoundType::cone, false, none, false, source, edge};
+    case BoundSource::low:
+      b.c = radius_ * e.lo;
+      break;
+    case BoundSource::high:
+      b.c = radius_ * e.hi;
+      break;
+    case BoundSource::middle:
+      b.c = radius_ * (e.lo + e.hi) / 2;
+      break;
+    case BoundSource::face:
+      b.c = radius_ * (p.gx * e.gy - p.gy * e.gx) / p.q;
+      break;
+    case BoundSource::start:
+      return {e.a, e.gx, e.gy, e.m, BoundType::cone, false, none, false, source, edge};
     case BoundSource::end: {
       const Point at = place_of<Real>(window_->vertices()[window_->edges()[edge].b].at);
       return {at, -e.gx, -e.gy, -e.m, BoundType::cone, false, none, false, source, edge};
     }
-    case BoundSource::rim: break;
+    case BoundSource::rim:
+      break;
   }
   return b;
 }
 
 template <class Real>
-typename PatchSet<Real>::NormalPolygon PatchSet<Real>::normals_of(Index v) const {
-  NormalPolygon polygon;
+const typename PatchSet<Real>::NormalPolygon& PatchSet<Real>::normals_of(Index v) const {
+  thread_local NormalPolygon polygon;  // its vectors are used again
+  polygon.clear();
   for (const Index i : window_->edges_of_vertex(v)) {
     const EdgeFrame& e = edges_[i];
     if (e.length == 0) continue;
@@ -392,7 +409,7 @@ void PatchSet<Real>::add_vertex(Index v) {
     if (edges_[i].length == 0) open = open && window_->vertices()[edge.a == v ? edge.b : edge.a].at.z < at.z;
   }
   if (!open || !has_convex) return continue_straight(v);
-  const NormalPolygon polygon = normals_of(v);
+  const NormalPolygon& polygon = normals_of(v);
   if (!polygon.has_inside()) return continue_straight(v);
 
   const Index patch = Index(patches_.size());
@@ -409,7 +426,8 @@ void PatchSet<Real>::add_vertex(Index v) {
     const bool at_a = window_->edges()[i].a == v;
     Bound b = bound(p, at_a ? BoundSource::start : BoundSource::end, i);
     Real nearest = -1;
-    for (const Vector3<Real> u : polygon.corners()) nearest = std::max(nearest, (u.x * b.nx + u.y * b.ny + u.z * b.c) / e.q);
+    for (const Vector3<Real> u : polygon.corners())
+      nearest = std::max(nearest, (u.x * b.nx + u.y * b.ny + u.z * b.c) / e.q);
     if (nearest < -1e-9) continue;  // the others imply it
     b.negative = true;
     b.partner = e.patch;
@@ -495,7 +513,8 @@ void PatchSet<Real>::add_edge(Index i) {
     bounds_.push_back(b);
   }
   p.bound_count = Index(bounds_.size()) - p.first_bound;
-  const Real most_up = e.lo < 0 && e.hi > 0 ? Real(1) : std::max(e.lo_up, e.hi_up), least_up = std::min(e.lo_up, e.hi_up);
+  const Real most_up = e.lo < 0 && e.hi > 0 ? Real(1) : std::max(e.lo_up, e.hi_up),
+             least_up = std::min(e.lo_up, e.hi_up);
   const Point3 b = window_->vertices()[window_->edges()[i].b].at;
   Rectangle<Real> r;
   for (const Real up : {least_up, most_up}) {
@@ -556,8 +575,10 @@ void PatchSet<Real>::add_face(Index f) {
     }
     Bound b = bound(p, source, face.edge[i]);
     b.negative = source == BoundSource::face ? !left : at_lo;
-    if (source == BoundSource::middle) b.partner = face_patch_[at_hi ? e.lo_face : e.hi_face];
-    else if (source != BoundSource::face) b.partner = e.patch;
+    if (source == BoundSource::middle)
+      b.partner = face_patch_[at_hi ? e.lo_face : e.hi_face];
+    else if (source != BoundSource::face)
+      b.partner = e.patch;
     bounds_.push_back(b);
   }
   p.bound_count = 3;
@@ -590,7 +611,9 @@ Real PatchSet<Real>::ball_height(Point at, Real z, Point p) const {
 }
 
 template <class Real>
-Real PatchSet<Real>::height(Index i, Point p) const { return contains(i, p) ? extended_height(i, p) : below_everything; }
+Real PatchSet<Real>::height(Index i, Point p) const {
+  return contains(i, p) ? extended_height(i, p) : below_everything;
+}
 
 template <class Real>
 Real PatchSet<Real>::cigar_height(Index edge, Point p) const {

@@ -163,7 +163,8 @@ class PatchSet {
   void place(Index edge);
   Limit limit(Index edge, Index face) const;
   void examine(Index edge);
-  NormalPolygon normals_of(Index vertex) const;
+  /// Of the vertex asked for last.
+  const NormalPolygon& normals_of(Index vertex) const;
   void add_face(Index face);
   void add_edge(Index edge);
   void add_vertex(Index vertex);

@@ -7,17 +7,22 @@ namespace krepl::terrain {
 
 using FeatureKind = Terrain::FeatureKind;
 
-/// True if every candidate that may show in the cell by more than matters is among the labels around it.
+/// True if every candidate that may show in the cell by more than matters is among the labels around it. Those that are
+/// found to be hidden are none any more.
 template <class Real>
-bool Cells<Real>::shows_all(const Cell& cell, std::span<const Index> candidates) {
+bool Cells<Real>::shows_all(const Cell& cell, std::span<Index> candidates) {
   seen_.clear();
   if (turns_.empty() && cell.side[0].label != none) seen_.push_back(cell.side[0].label);
   for (const Turn& t : turns_) {
     if (t.after != none && !is_seen(t.after)) seen_.push_back(t.after);
   }
   std::optional<bool> prisms;
-  for (const Index c : candidates) {
-    if (is_seen(c) || is_hidden(c, cell.box)) continue;
+  for (Index& c : candidates) {
+    if (is_seen(c)) continue;
+    if (is_hidden(c, cell.box)) {
+      c = none;
+      continue;
+    }
     if (cell.box.larger_side() > envelope_.patches().radius() / 128) return false;
     if (is_thin(c, none, none, cell.box, envelope_.tolerance()) || is_tangent_sliver(c, cell.box) ||
         envelope_.hidden_within_tolerance(c, seen_, cell.box))
@@ -32,12 +37,14 @@ bool Cells<Real>::shows_all(const Cell& cell, std::span<const Index> candidates)
 template <class Real>
 bool Cells<Real>::is_hidden(Index patch, const Box& box) const {
   // Four or more labels, each seen once, hardly ever meet in one vertex: the cell is going to be cut anyway.
-  if (seen_.size() == turns_.size() ? seen_.size() > 3 : turns_.size() > 4) return false;
-  return envelope_.stays_hidden(patch, box, seen_, 5);
+  if (seen_.size() == turns_.size() ? seen_.size() > 3 : turns_.size() > 6) return false;
+  return envelope_.stays_hidden(patch, box, std::span(seen_).first(std::min<std::size_t>(seen_.size(), 4)), 5);
 }
 
 template <class Real>
-bool Cells<Real>::is_seen(Index label) const { return std::find(seen_.begin(), seen_.end(), label) != seen_.end(); }
+bool Cells<Real>::is_seen(Index label) const {
+  return std::find(seen_.begin(), seen_.end(), label) != seen_.end();
+}
 
 /// True if a cylinder's or sphere's patch is nowhere in the box wider than that between two of its sides; a sphere's
 /// between the seams to a and b, unless these are none.
@@ -52,7 +59,7 @@ bool Cells<Real>::is_thin(Index patch, Index a, Index b, const Box& box, Real wi
   if (patches[patch].kind != FeatureKind::vertex) return false;
   const Point at = patches[patch].at, mid = box.middle();
   const Real aside = norm(std::max(Real(0), absolute(mid.x - at.x) - box.half_x()),
-                                  std::max(Real(0), absolute(mid.y - at.y) - box.half_y()));
+                          std::max(Real(0), absolute(mid.y - at.y) - box.half_y()));
   const Real up = square_root(std::max(Real(0), patches.square_radius() - aside * aside));
   const Real steepness = up > 0 ? aside / up : 0;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
@@ -72,11 +79,13 @@ bool Cells<Real>::is_thin(Index patch, Index a, Index b, const Box& box, Real wi
   return false;
 }
 
-/// True if two edges are so nearly in one line that the sphere between them is nowhere in the box wider than the tolerance.
+/// True if two edges are so nearly in one line that the sphere between them is nowhere in the box wider than the
+/// tolerance.
 template <class Real>
 bool Cells<Real>::is_thin_bend(Index a, Index b, const Box& box) const {
   const PatchSet<Real>& patches = envelope_.patches();
-  if (a == none || b == none || patches[a].kind != FeatureKind::edge || patches[b].kind != FeatureKind::edge) return false;
+  if (a == none || b == none || patches[a].kind != FeatureKind::edge || patches[b].kind != FeatureKind::edge)
+    return false;
   for (const Bound& side : patches.bounds(a)) {
     if (side.partner == none || patches[side.partner].kind != FeatureKind::vertex) continue;
     if (patches.seam(side.partner, b) == nullptr) continue;
@@ -130,16 +139,18 @@ std::optional<PointOf<Real>> Cells<Real>::end_of_thin_strip() const {
   return std::nullopt;
 }
 
-/// True if all candidates are the same along one direction all over the box: what shows in it anywhere shows at its sides.
+/// True if all candidates are the same along one direction all over the box: what shows in it anywhere shows at its
+/// sides.
 template <class Real>
 bool Cells<Real>::all_are_prisms(std::span<const Index> candidates, const Box& box) const {
   const PatchSet<Real>& patches = envelope_.patches();
-  const auto edge =
-      std::find_if(candidates.begin(), candidates.end(), [&](Index c) { return patches[c].kind == FeatureKind::edge; });
+  const auto edge = std::find_if(candidates.begin(), candidates.end(),
+                                 [&](Index c) { return c != none && patches[c].kind == FeatureKind::edge; });
   if (edge == candidates.end()) return false;
   const Patch& axis = patches[*edge];
   const Real size = box.larger_side(), slack = envelope_.tolerance() / 16;
   for (const Index c : candidates) {
+    if (c == none) continue;
     const Patch& f = patches[c];
     if (f.kind == FeatureKind::vertex) return false;
     Real rise = f.gx * axis.gx + f.gy * axis.gy;
@@ -159,8 +170,9 @@ bool Cells<Real>::all_are_prisms(std::span<const Index> candidates, const Box& b
 /// True if a patch that shows nowhere around the cell can show inside it only within the tolerance of one of its sides:
 /// where a valley is tangent to a seam, or a wall to another one.
 ///
-/// With g < 0 on the patch's side, and f < 0 where it is hidden: if f - k g <= k t |grad g| all over the box, then f <=
-/// 0 wherever g <= -t |grad g|.
+/// With g < 0 on the patch's side, and f < 0 where it is hidden: if f - k g <= k t s all over the box, then f <= 0 wherever
+/// g <= -t s, and the distance from there to the side is t if g changes by at least s across it: 1 for the sides of a patch
+/// (for a disc about 2 R), and more beside a wall.
 template <class Real>
 bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
   const PatchSet<Real>& patches = envelope_.patches();
@@ -175,29 +187,33 @@ bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
     const Gradient g = envelope_.bound_gradient(b, mid);
     const GradientRange r = envelope_.bound_gradient_range(b, box);
     const Range factor{sign, sign};
-    return Function{sign * b.value(mid, patches.square_radius()), {sign * g.x, sign * g.y}, {r.x * factor, r.y * factor}};
+    return Function{
+        sign * b.value(mid, patches.square_radius()), {sign * g.x, sign * g.y}, {r.x * factor, r.y * factor}};
   };
   const auto hidden_by = [&](Index other) {
     if (const std::optional<Bound> wall = envelope_.wall_above(other, patch, box)) return side(*wall);
     const Gradient c = patches.gradient(patch, mid), o = patches.gradient(other, mid);
     const GradientRange cs = envelope_.gradient_range(patch, box), os = envelope_.gradient_range(other, box);
-    return Function{patches.extended_height(patch, mid) - patches.extended_height(other, mid), {c.x - o.x, c.y - o.y},
+    return Function{patches.extended_height(patch, mid) - patches.extended_height(other, mid),
+                    {c.x - o.x, c.y - o.y},
                     {cs.x - os.x, cs.y - os.y}};
   };
+  const auto least = [](Range r) { return r.low > 0 ? r.low : r.high < 0 ? -r.high : Real(0); };
   for (const Bound& b : patches.bounds(patch)) {
     if (b.partner == none ? !b.rim : !is_seen(b.partner)) continue;
     const Function g = side(b);
     const Real square = g.gradient.x * g.gradient.x + g.gradient.y * g.gradient.y;
+    const Real across = std::max(b.type == BoundType::disc ? Real(0) : Real(1), norm(least(g.range.x), least(g.range.y)));
     for (const Turn& t : turns_) {
       if (t.after == none || t.after == b.partner) continue;
       const Function f = hidden_by(t.after);
       const Real k = (f.gradient.x * g.gradient.x + f.gradient.y * g.gradient.y) / square;
-      if (!(k > 0)) continue;
+      if (!(k > 0) || !is_finite(f.value)) continue;  // the middle may be beyond a wall
       const Range factor{k, k};
       const Range x = f.range.x - g.range.x * factor, y = f.range.y - g.range.y * factor;
       const Real most = f.value - k * g.value + std::max(absolute(x.low), absolute(x.high)) * box.half_x() +
-                          std::max(absolute(y.low), absolute(y.high)) * box.half_y();
-      if (most <= k * square_root(square) * envelope_.tolerance()) return true;
+                        std::max(absolute(y.low), absolute(y.high)) * box.half_y();
+      if (most <= k * across * envelope_.tolerance()) return true;
     }
   }
   return false;

@@ -2,7 +2,8 @@
 
 #include "terrain/cells.hpp"
 
-// Where three or more patches meet: Newton's method on two of the functions that vanish along the curves out of the vertex.
+// Where three or more patches meet: Newton's method on two of the functions that vanish along the curves out of the
+// vertex.
 namespace krepl::terrain {
 namespace {
 
@@ -56,7 +57,8 @@ bool Cells<Real>::share_corner(Index a, Index b, Point p) const {
 /// True if every patch among the labels has p in its domain, or on its border as far as numbers tell.
 template <class Real>
 bool Cells<Real>::all_reach(Point p) const {
-  return std::all_of(turns_.begin(), turns_.end(), [&](const Turn& t) { return t.after == none || reaches(t.after, p); });
+  return std::all_of(turns_.begin(), turns_.end(),
+                     [&](const Turn& t) { return t.after == none || reaches(t.after, p); });
 }
 
 template <class Real>
@@ -86,7 +88,16 @@ bool Cells<Real>::shows_at(Index patch, Point p) const {
   return true;
 }
 
-/// The one corner in the box of a patch two of whose sides are among the turns, or that two patches among the labels have.
+/// True if one of the patches around the cell hides the patches that have a corner at p.
+template <class Real>
+bool Cells<Real>::is_covered(Point p) const {
+  return std::none_of(turns_.begin(), turns_.end(), [&](const Turn& t) {
+    return t.meeting == Meeting::rim || (has_corner(t.after, p) && shows_at(t.after, p));
+  });
+}
+
+/// The one corner in the box of a patch two of whose sides are among the turns, or that two patches among the labels
+/// have.
 template <class Real>
 std::optional<PointOf<Real>> Cells<Real>::common_corner(const Box& box) const {
   std::optional<Point> found;
@@ -144,15 +155,19 @@ std::optional<PointOf<Real>> Cells<Real>::star_point(const Box& box) const {
   };
   const auto value = [&](const Condition& c, Point p) {
     if (c.bound != nullptr) return c.bound->value(p, square);
-    return envelope_.clamped_height(c.a, p) - (c.at_rim ? envelope_.rim_height(c.b, p) : envelope_.clamped_height(c.b, p));
+    return envelope_.clamped_height(c.a, p) -
+           (c.at_rim ? envelope_.rim_height(c.b, p) : envelope_.clamped_height(c.b, p));
   };
 
   // By how much heights may differ at a place that is on their curve as far as lengths in the plane are told apart.
   const Real most = 2 * square_root(2 * radius * envelope_.tolerance());  // beside a wall, a bit inside of it
-  const auto height_slack = [&](Gradient g) { return std::min(most, envelope_.tolerance() * size(g)) + envelope_.noise(); };
+  const auto height_slack = [&](Gradient g) {
+    return std::min(most, envelope_.tolerance() * size(g)) + envelope_.noise();
+  };
 
   if (const std::optional<Point> end = end_of_thin_bend(box)) return end;
-  // A corner that two labels share, or two sides of one, is known beforehand; near the rim the curves there are tangent.
+  // A corner that two labels share, or two sides of one, is known beforehand; near the rim the curves there are
+  // tangent.
   const auto passes = [&](std::size_t k, Point corner) {
     const Condition& c = condition[k];
     if (c.bound != nullptr && c.bound->type != BoundType::cone) {
@@ -162,7 +177,8 @@ std::optional<PointOf<Real>> Cells<Real>::star_point(const Box& box) const {
     if (share_corner(turns_[k].before, turns_[k].after, corner)) return true;
     return absolute(value(c, corner)) <= 4 * height_slack(gradient(c, corner));
   };
-  const std::optional<Point> corner = common_corner(box);
+  std::optional<Point> corner = common_corner(box);
+  if (corner && n == 3 && is_covered(*corner)) corner.reset();
   if (corner) {
     if (!all_reach(*corner)) return std::nullopt;
     for (std::size_t k = 0; k < n; ++k) {
@@ -240,17 +256,40 @@ std::optional<PointOf<Real>> Cells<Real>::star_point(const Box& box) const {
     if (!(absolute(value(k, *p)) <= slack)) return std::nullopt;
   }
   // One vertex only: two sides of domains are enough, for heights the map must be one to one.
-  if (c.bound == nullptr || d.bound == nullptr) {
-    const auto range = [&](const Condition& k) {
-      if (k.bound != nullptr) return envelope_.bound_gradient_range(*k.bound, box);
-      const Gradient wall = k.at_rim ? envelope_.rim_gradient(k.b) : Gradient{0, 0};
-      const GradientRange a = envelope_.gradient_range(k.a, box);
-      const GradientRange b = k.at_rim ? GradientRange{{wall.x, wall.x}, {wall.y, wall.y}} : envelope_.gradient_range(k.b, box);
-      return GradientRange{a.x - b.x, a.y - b.y};
-    };
-    const GradientRange a = range(c), b = range(d);
-    if (n <= 3 && !(a.x * b.y - a.y * b.x).excludes_zero()) return std::nullopt;
+  if (c.bound != nullptr && d.bound != nullptr) return p;
+  const auto range = [&](const Condition& k) {
+    if (k.bound != nullptr) return envelope_.bound_gradient_range(*k.bound, box);
+    const Gradient wall = k.at_rim ? envelope_.rim_gradient(k.b) : Gradient{0, 0};
+    constexpr auto where = Envelope<Real>::Where::in_domain;
+    const GradientRange a = envelope_.gradient_range(k.a, box, where);
+    const GradientRange b =
+        k.at_rim ? GradientRange{{wall.x, wall.x}, {wall.y, wall.y}} : envelope_.gradient_range(k.b, box, where);
+    return GradientRange{a.x - b.x, a.y - b.y};
+  };
+  const auto is_straight = [&](const Condition& k) {
+    if (k.bound != nullptr) return k.bound->type == BoundType::line;
+    using Kind = Terrain::FeatureKind;
+    return !k.at_rim && patches[k.a].kind == Kind::face && patches[k.b].kind == Kind::face;
+  };
+  // Along a straight curve, which meets another one once if that one's function rises or falls all along.
+  const auto is_crossed_once = [&](const Condition& straight, const Condition& k) {
+    const Gradient g = gradient(straight, middle), along{-g.y, g.x};
+    if (k.bound != nullptr || k.at_rim) {
+      const GradientRange r = range(k);
+      return (r.x * Range{along.x, along.x} + r.y * Range{along.y, along.y}).excludes_zero();
+    }
+    return slope_of_difference(k.a, k.b, box, along).excludes_zero();
+  };
+  if (n > 3) return p;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Condition &e = condition[i], &f = condition[j];
+      if (is_straight(e) && is_crossed_once(e, f)) return p;
+      if (is_straight(f) && is_crossed_once(f, e)) return p;
+    }
   }
+  const GradientRange a = range(c), b = range(d);
+  if (!(a.x * b.y - a.y * b.x).excludes_zero()) return std::nullopt;
   return p;
 }
 

@@ -120,6 +120,27 @@ bool Envelope<Real>::hidden_beyond(Index i, const Wall& wall, Real inset, std::s
   });
 }
 
+/// True if a patch that the body behind a wall hides, but for `inset`, is beyond that wall beside another edge and not
+/// above it by more than the tolerance. On a grid with R a whole number of cells walls run exactly where two edges in one
+/// line meet in a valley. Only for walls along an axis.
+template <class Real>
+bool Envelope<Real>::beside_beyond(Index i, const Bound& wall, Real inset, std::span<const Index> others,
+                                   const Box& box) const {
+  constexpr double straight = 0x1p-50;
+  if (wall.type != BoundType::line || std::min(absolute(wall.nx), absolute(wall.ny)) > straight) return false;
+  const bool upright = absolute(wall.nx) > 0.5;
+  const Real n = upright ? wall.nx : wall.ny, at = (upright ? wall.at.x : wall.at.y) + wall.c / n;
+  Box beyond = box;
+  Real &low = upright ? beyond.low.x : beyond.low.y, &high = upright ? beyond.high.x : beyond.high.y;
+  if (wall.sign() * n > 0) low = std::max(low, at - inset);
+  else high = std::min(high, at + inset);
+  if (low >= high) return true;
+  const BoxFrame frame(beyond);
+  return std::any_of(others.begin(), others.end(), [&](Index other) {
+    return other != i && hidden_beside(i, other, frame, 0, tolerance_);
+  });
+}
+
 template class Envelope<double>;
 template class Envelope<DoubleDouble>;
 

@@ -143,6 +143,27 @@ TEST(SurfaceDegenerate, FansAroundACorner) {
   expect_sound(mesh({v, a, b, n, s, w}, {{0, 1, 3}, {0, 3, 5}, {0, 5, 2}, {0, 2, 4}, {0, 4, 1}}), {0.5, 1, 3});
 }
 
+/// More edges at one vertex than any table of a fixed size holds, and ridges in one plane, all of whose pairs give one
+/// corner.
+TEST(SurfaceDegenerate, ManyEdgesAtOneVertex) {
+  constexpr int facets = 150, ridges = 15;
+  std::vector<Point3> v{{0, 0, 3}};
+  std::vector<std::array<Index, 3>> triangles;
+  for (int i = 0; i < facets; ++i) {
+    const double angle = 2 * M_PI * i / facets;
+    v.push_back({4 * std::cos(angle), 4 * std::sin(angle), 0});
+    triangles.push_back({0, Index(1 + i), Index(1 + (i + 1) % facets)});
+  }
+  expect_sound(mesh(v, triangles), {0.5, 2});
+  v = {{0, 0, 4}};
+  triangles.clear();
+  for (int i = 0; i < 2 * ridges; ++i) {
+    v.push_back({1, i / 4.0, i % 2 == 0 ? 0.0 : -1.0});
+    if (i > 0) triangles.push_back({0, Index(i), Index(i + 1)});
+  }
+  expect_sound(mesh(v, triangles), {0.5, 2, 10});
+}
+
 TEST(SurfaceDegenerate, Border) {
   expect_sound(mesh({{0, 0, 0}, {3, 0, 1}, {1, 2, 0.5}}, {{0, 1, 2}}), {0.2, 1, 3});
   expect_sound(mesh({{0, 0, 0}, {3, 0, 0}, {1, 2, 0}}, {{0, 1, 2}}), {0.2, 1, 3});
