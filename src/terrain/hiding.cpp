@@ -58,11 +58,12 @@ bool Envelope<Real>::axis_meets(Index i, const BoxFrame& box) const {
   const Real aside_spread = absolute(f.gy) * box.hx + absolute(f.gx) * box.hy;
   const auto up = [&](Real b) { return square_root(std::max(Real(0), patches_.square_radius() - b * b)); };
   const Real low_up = up(aside + aside_spread), high_up = up(std::max(Real(0), aside - aside_spread));
+  const Real least_told = square_root(2 * patches_.radius() * smallest_stretch_);  // what lines across the wall still tell
   const auto least = [&](BoundSource end) {
     for (const Bound& b : patches_.bounds(i)) {
       if (b.source == end && b.partner != none && patches_[b.partner].kind == FeatureKind::vertex) return least_up_;
     }
-    return is_fine<Real> ? least_up_ : Real(0);
+    return is_fine<Real> ? least_told : Real(0);
   };
   const Real shift = f.m * f.flat, at_start = least(BoundSource::start), at_end = least(BoundSource::end);
   return along + along_spread + shift * std::max(at_start, shift > 0 ? high_up : low_up) >= 0 &&
