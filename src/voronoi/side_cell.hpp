@@ -10,9 +10,9 @@ namespace krepl::voronoi {
 template <class Real>
 constexpr double narrow = 0x1p-48;
 template <>
-constexpr double narrow<quad> = 0x1p-108;
+inline constexpr double narrow<quad> = 0x1p-108;
 template <>
-constexpr double narrow<wide> = 0x1p-300;
+inline constexpr double narrow<wide> = 0x1p-300;
 
 /// 1 - n.y of a unit vector, without cancellation.
 template <class Real>
