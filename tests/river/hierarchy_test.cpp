@@ -157,7 +157,9 @@ TEST(Hierarchy, StrahlersOrderInTrees) {
     }
     EXPECT_EQ(stems, 1u);
   }
-  EXPECT_GE(highest, 3u);
+  if (effort() >= 1) {
+    EXPECT_GE(highest, 3u);
+  }
 }
 
 TEST(Hierarchy, BraidsDoNotRaiseTheOrder) {
