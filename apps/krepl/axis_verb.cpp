@@ -6,6 +6,7 @@
 #include "input/network_reader.hpp"
 #include "krepl/voronoi.hpp"
 #include "output/axis_file.hpp"
+#include "network_options.hpp"
 #include "output_target.hpp"
 #include "stopwatch.hpp"
 #include "verbs.hpp"
@@ -135,16 +136,7 @@ void add_axis_verb(CLI::App& program, Session& session) {
   verb->add_option("--max-clearance", options->max_clearance,
                    "Only what is no farther than this from the input (default: 2 extents)")
       ->type_name("LENGTH");
-  verb->add_option("--layer", options->input.layer, "Layer to read")->type_name("NAME");
-  verb->add_option("--where", options->input.where, "Features to read, as SQL: \"class = 'river'\"")
-      ->type_name("CONDITION");
-  verb->add_option("--crs", options->input.crs, "Coordinate system of the data, in place of what the file says")
-      ->type_name("EPSG:n");
-  verb->add_option("--to-crs", options->input.to_crs,
-                   "Plane coordinate system to project the data to; auto chooses one")
-      ->type_name("EPSG:n|auto");
-  verb->add_option("--format", options->format, "Format of the result, in place of what its extension says")
-      ->type_name("NAME");
+  add_network_options(*verb, options->input, options->format);
   session.add_common_options(*verb);
   session.on_run(*verb, [options, &session] { return run_axis(*options, session); });
 }

@@ -7,6 +7,7 @@
 #include "krepl/voronoi.hpp"
 #include "krepl/zone.hpp"
 #include "output/zone_file.hpp"
+#include "network_options.hpp"
 #include "output_target.hpp"
 #include "stopwatch.hpp"
 #include "verbs.hpp"
@@ -179,13 +180,7 @@ void add_buffer_verb(CLI::App& program, Session& session) {
                    "Radius of the disk, in the unit of the coordinates; several, or FIRST:LAST:STEP, give nested zones")
       ->required()
       ->type_name("R[,R2,...]");
-  verb->add_option("--layer", options->input.layer, "Layer to read")->type_name("NAME");
-  verb->add_option("--where", options->input.where, "Features to read, as SQL: \"class = 'river'\"")->type_name("CONDITION");
-  verb->add_option("--crs", options->input.crs, "Coordinate system of the data, in place of what the file says")
-      ->type_name("EPSG:n");
-  verb->add_option("--to-crs", options->input.to_crs, "Plane coordinate system to project the data to; auto chooses one")
-      ->type_name("EPSG:n|auto");
-  verb->add_option("--format", options->format, "Format of the result, in place of what its extension says")->type_name("NAME");
+  add_network_options(*verb, options->input, options->format);
   verb->add_option("--max-error", options->max_error, "Formats without arcs: largest deviation (default: radius / 1000)")
       ->type_name("LENGTH");
   verb->add_flag("--separate", options->separate, "A feature for each polygon, not for each radius");

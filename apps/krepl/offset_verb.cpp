@@ -7,6 +7,7 @@
 #include "input/network_reader.hpp"
 #include "krepl/offset.hpp"
 #include "output/offset_file.hpp"
+#include "network_options.hpp"
 #include "output_target.hpp"
 #include "stopwatch.hpp"
 #include "verbs.hpp"
@@ -100,16 +101,7 @@ void add_offset_verb(CLI::App& program, Session& session) {
           "Above zero: left of lines, outwards from polygons; below: right, inwards; in the unit of the coordinates")
       ->required()
       ->type_name("D[,D2,...]");
-  verb->add_option("--layer", options->input.layer, "Layer to read")->type_name("NAME");
-  verb->add_option("--where", options->input.where, "Features to read, as SQL: \"class = 'river'\"")
-      ->type_name("CONDITION");
-  verb->add_option("--crs", options->input.crs, "Coordinate system of the data, in place of what the file says")
-      ->type_name("EPSG:n");
-  verb->add_option("--to-crs", options->input.to_crs,
-                   "Plane coordinate system to project the data to; auto chooses one")
-      ->type_name("EPSG:n|auto");
-  verb->add_option("--format", options->format, "Format of the result, in place of what its extension says")
-      ->type_name("NAME");
+  add_network_options(*verb, options->input, options->format);
   verb->add_option("--max-error", options->max_error,
                    "Formats without arcs: largest deviation (default: distance / 1000)")
       ->type_name("LENGTH");

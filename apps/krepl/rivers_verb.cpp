@@ -9,6 +9,7 @@
 #include "krepl/river.hpp"
 #include "krepl/zone.hpp"
 #include "output/river_file.hpp"
+#include "network_options.hpp"
 #include "output_target.hpp"
 #include "stopwatch.hpp"
 #include "verbs.hpp"
@@ -292,16 +293,7 @@ void add_rivers_verb(CLI::App& program, Session& session) {
   verb->add_option("--zones", options->zones,
                    "A zone for each sub-river (default), each main stem with its tributaries, or the whole")
       ->type_name("sub-river|stem|whole");
-  verb->add_option("--layer", options->input.layer, "Layer to read")->type_name("NAME");
-  verb->add_option("--where", options->input.where, "Features to read, as SQL: \"class = 'river'\"")
-      ->type_name("CONDITION");
-  verb->add_option("--crs", options->input.crs, "Coordinate system of the data, in place of what the file says")
-      ->type_name("EPSG:n");
-  verb->add_option("--to-crs", options->input.to_crs,
-                   "Plane coordinate system to project the data to; auto chooses one")
-      ->type_name("EPSG:n|auto");
-  verb->add_option("--format", options->format, "Format of the result, in place of what its extension says")
-      ->type_name("NAME");
+  add_network_options(*verb, options->input, options->format);
   verb->add_option("--max-error", options->max_error,
                    "Zones in formats without arcs: largest deviation (default: radius / 1000)")
       ->type_name("LENGTH");

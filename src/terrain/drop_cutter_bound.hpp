@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/outward_rounding.hpp"
+
 namespace krepl::drop {
 
 /// Four numbers in single precision.
@@ -87,11 +89,8 @@ inline Float4 absolute(Float4 a) { return max(a, Float4(0.f) - a); }
 inline constexpr float float_infinity = std::numeric_limits<float>::infinity();
 
 /// Rounded to single precision, up or down.
-inline float up(double x) {
-  const float f = float(x);
-  return double(f) < x ? std::nextafter(f, float_infinity) : f;
-}
-inline float down(double x) { return -up(-x); }
+inline float up(double x) { return kernel::float_above(x); }
+inline float down(double x) { return kernel::float_below(x); }
 
 /// What the bounds need to know of the ball. All lengths in bounds are in units of Scale::unit.
 struct BallBound {

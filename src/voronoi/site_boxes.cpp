@@ -7,27 +7,23 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/outward_rounding.hpp"
 #include "kernel/parallel.hpp"
 
 namespace krepl::voronoi {
+
+using kernel::float_above;
+using kernel::float_below;
+
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-float down(double x) {
-  const float f = float(x);
-  return double(f) > x ? std::nextafter(f, -infinity) : f;
-}
-float up(double x) {
-  const float f = float(x);
-  return double(f) < x ? std::nextafter(f, infinity) : f;
-}
-
 }  // namespace
 
 unsigned SiteBoxes::Node::meeting(const Box& window) const {
-  const float low_x = down(window.centre.x - window.half.x), high_x = up(window.centre.x + window.half.x);
-  const float low_y = down(window.centre.y - window.half.y), high_y = up(window.centre.y + window.half.y);
+  const float low_x = float_below(window.centre.x - window.half.x), high_x = float_above(window.centre.x + window.half.x);
+  const float low_y = float_below(window.centre.y - window.half.y), high_y = float_above(window.centre.y + window.half.y);
   unsigned bits = 0;
 #ifdef __SSE2__
   for (int k = 0; k < arity; k += 4) {
@@ -64,8 +60,8 @@ SiteBoxes::SiteBoxes(const Instance& instance, const Context& context) {
         if (below == nullptr) {
           const auto s = instance.site(Index(i));
           const Point a = instance.vertices()[s.a], b = instance.vertices()[s.b];
-          n.min_x[k] = down(std::min(a.x, b.x)), n.max_x[k] = up(std::max(a.x, b.x));
-          n.min_y[k] = down(std::min(a.y, b.y)), n.max_y[k] = up(std::max(a.y, b.y));
+          n.min_x[k] = float_below(std::min(a.x, b.x)), n.max_x[k] = float_above(std::max(a.x, b.x));
+          n.min_y[k] = float_below(std::min(a.y, b.y)), n.max_y[k] = float_above(std::max(a.y, b.y));
           continue;
         }
         const Node& c = (*below)[i];

@@ -61,6 +61,11 @@ class SiteBoxes {
     return std::abs(a.centre.x - b.centre.x) + a.half.x <= b.half.x &&
            std::abs(a.centre.y - b.centre.y) + a.half.y <= b.half.y;
   }
+  static float squared_distance(Vector<double> from, const Box& b) {
+    const double dx = std::max(std::abs(b.centre.x - from.x) - b.half.x, 0.0);
+    const double dy = std::max(std::abs(b.centre.y - from.y) - b.half.y, 0.0);
+    return float(dx * dx + dy * dy);
+  }
   /// Makes memory.start_ hold all sites of the window.
   void find_start(const Box& window, Memory& memory) const;
   Box box(std::uint32_t level, std::uint32_t index) const {
@@ -81,9 +86,7 @@ void SiteBoxes::search_nearest(Vector<double> from, Memory& memory, Window&& win
   const auto consider = [&](std::uint32_t level, std::uint32_t i) {
     const Box b = box(level, i);
     if (!meets(b)) return;
-    const double dx = std::max(std::abs(b.centre.x - from.x) - b.half.x, 0.0);
-    const double dy = std::max(std::abs(b.centre.y - from.y) - b.half.y, 0.0);
-    heap.push_back(entry(float(dx * dx + dy * dy), level, i));
+    heap.push_back(entry(squared_distance(from, b), level, i));
     std::push_heap(heap.begin(), heap.end(), std::greater<>{});
   };
   for (std::uint32_t i = 0; i < arity; ++i) consider(std::uint32_t(levels_.size() - 1), i);
@@ -110,9 +113,7 @@ void SiteBoxes::search_near(Vector<double> from, Memory& memory, Window&& window
   const auto consider = [&](std::uint32_t level, std::uint32_t i) {
     const Box b = box(level, i);
     if (!meets(b)) return;
-    const double dx = std::max(std::abs(b.centre.x - from.x) - b.half.x, 0.0);
-    const double dy = std::max(std::abs(b.centre.y - from.y) - b.half.y, 0.0);
-    stack.push_back(entry(float(dx * dx + dy * dy), level, i));
+    stack.push_back(entry(squared_distance(from, b), level, i));
   };
   const auto nearest_last = [&](std::size_t first) {
     std::sort(stack.begin() + std::ptrdiff_t(first), stack.end(), std::greater<>{});

@@ -8,21 +8,17 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/outward_rounding.hpp"
 #include "kernel/parallel.hpp"
 
 namespace krepl::zone {
+
+using kernel::float_above;
+using kernel::float_below;
+
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-float down(double x) {
-  const float f = float(x);
-  return double(f) > x ? std::nextafter(f, -infinity) : f;
-}
-float up(double x) {
-  const float f = float(x);
-  return double(f) < x ? std::nextafter(f, infinity) : f;
-}
 
 }  // namespace
 
@@ -46,8 +42,8 @@ SiteTree::SiteTree(const Instance& instance, const Context& context) {
           if (child < count && below == nullptr) {
             const auto s = instance.site(Index(child));
             const Point a = instance.vertices()[s.a], b = instance.vertices()[s.b];
-            low_x = down(std::min(a.x, b.x)), high_x = up(std::max(a.x, b.x));
-            low_y = down(std::min(a.y, b.y)), high_y = up(std::max(a.y, b.y));
+            low_x = float_below(std::min(a.x, b.x)), high_x = float_above(std::max(a.x, b.x));
+            low_y = float_below(std::min(a.y, b.y)), high_y = float_above(std::max(a.y, b.y));
           } else if (child < count) {
             const Node& c = (*below)[child];
             low_x = *std::min_element(c.min_x, c.min_x + arity), high_x = *std::max_element(c.max_x, c.max_x + arity);

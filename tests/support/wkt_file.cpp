@@ -1,10 +1,13 @@
 #include "support/wkt_file.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
+
+#include "support/environment.hpp"
 
 namespace krepl::test {
 
@@ -137,6 +140,16 @@ std::vector<InputPart> read_wkt_file(const std::filesystem::path& path) {
     std::move(parts.begin(), parts.end(), std::back_inserter(all));
   }
   return all;
+}
+
+std::vector<std::filesystem::path> real_wkt_files() {
+  std::vector<std::filesystem::path> found;
+  const auto data = data_directory();
+  if (!data || !std::filesystem::is_directory(*data / "vector")) return found;
+  for (const auto& entry : std::filesystem::directory_iterator(*data / "vector"))
+    if (entry.path().string().find(".wkt") != std::string::npos) found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 }  // namespace krepl::test

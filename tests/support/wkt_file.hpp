@@ -16,6 +16,9 @@ std::vector<InputPart> parse_wkt(const std::string& text, std::int64_t& feature)
 /// All geometries of a text file, one a line; lines that start with # are skipped. `.gz` goes through gzip.
 std::vector<InputPart> read_wkt_file(const std::filesystem::path& path);
 
+/// The text files of KREPL_DATA/vector in order; none without that directory.
+std::vector<std::filesystem::path> real_wkt_files();
+
 /// The text of a file, decompressed if it ends in .gz.
 std::string read_text(const std::filesystem::path& path);
 

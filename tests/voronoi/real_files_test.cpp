@@ -14,16 +14,6 @@
 namespace krepl::test {
 namespace {
 
-std::vector<std::filesystem::path> files() {
-  std::vector<std::filesystem::path> found;
-  const auto data = data_directory();
-  if (!data || !std::filesystem::is_directory(*data / "vector")) return found;
-  for (const auto& entry : std::filesystem::directory_iterator(*data / "vector"))
-    if (entry.path().string().find(".wkt") != std::string::npos) found.push_back(entry.path());
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 double mean_length(const Network& n) {
   double sum = 0;
   for (const auto s : n.segments()) {
@@ -33,7 +23,7 @@ double mean_length(const Network& n) {
 }
 
 TEST(VoronoiRealFiles, AgreeWithIntervalsAtAllRadii) {
-  const auto paths = files();
+  const auto paths = real_wkt_files();
   if (paths.empty()) GTEST_SKIP() << "no real data: set KREPL_DATA to a directory with vector/*.wkt";
   for (const auto& path : paths) {
     SCOPED_TRACE(path.filename());

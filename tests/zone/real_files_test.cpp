@@ -20,16 +20,6 @@ double mean_segment_length(const std::vector<InputPart>& parts) {
   return sum / double(count);
 }
 
-std::vector<std::filesystem::path> files() {
-  std::vector<std::filesystem::path> found;
-  const auto data = data_directory();
-  if (!data || !std::filesystem::is_directory(*data / "vector")) return found;
-  for (const auto& entry : std::filesystem::directory_iterator(*data / "vector"))
-    if (entry.path().string().find(".wkt") != std::string::npos) found.push_back(entry.path());
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 void expect_sound(ZoneCase& c, double lengths, double mean) {
   c.radius = lengths * mean;
   const auto zone = zone_of(c);
@@ -40,7 +30,7 @@ void expect_sound(ZoneCase& c, double lengths, double mean) {
 }
 
 TEST(RealFiles, SoundAtAllRadii) {
-  const auto paths = files();
+  const auto paths = real_wkt_files();
   if (paths.empty()) GTEST_SKIP() << "no real data: set KREPL_DATA to a directory with vector/*.wkt";
   for (const auto& path : paths) {
     std::printf("%s\n", path.filename().c_str());

@@ -1,0 +1,18 @@
+// What all verbs that read lines, polygons and points have in common.
+#include "network_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace krepl::app {
+
+void add_network_options(CLI::App& verb, input::NetworkRequest& input, std::string& format) {
+  verb.add_option("--layer", input.layer, "Layer to read")->type_name("NAME");
+  verb.add_option("--where", input.where, "Features to read, as SQL: \"class = 'river'\"")->type_name("CONDITION");
+  verb.add_option("--crs", input.crs, "Coordinate system of the data, in place of what the file says")
+      ->type_name("EPSG:n");
+  verb.add_option("--to-crs", input.to_crs, "Plane coordinate system to project the data to; auto chooses one")
+      ->type_name("EPSG:n|auto");
+  verb.add_option("--format", format, "Format of the result, in place of what its extension says")->type_name("NAME");
+}
+
+}  // namespace krepl::app
