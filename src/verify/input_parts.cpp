@@ -30,7 +30,8 @@ std::vector<InputPart> plain(const input::Parts& parts) {
     out.push_back({{parts.points.begin() + std::ptrdiff_t(parts.begin[i]),
                     parts.points.begin() + std::ptrdiff_t(parts.begin[i + 1])},
                    parts.kind[i] == input::Parts::Kind::ring,
-                   parts.feature[i]});
+                   parts.feature[i],
+                   0});
   return out;
 }
 

@@ -20,7 +20,7 @@ double cross(Point o, Point p, Point q) { return (p.x - o.x) * (q.y - o.y) - (p.
 /// Everything about one piece that the ray needs.
 class PieceShape {
  public:
-  PieceShape(const Instance& in, Index element, Point p, Point q) : p_(p), q_(q), radius_(in.nominal_radius()) {
+  PieceShape(const Instance& in, Index element, Point p, Point q) : p_(p), q_(q), radius_(in.nominal_radius_of(element)) {
     arc_ = !in.is_side(element);
     if (arc_) centre_ = in.vertices()[in.vertex_of(element)];
   }
