@@ -2,18 +2,10 @@
 
 #include <algorithm>
 
+#include "model/part_segments.hpp"
+
 namespace krepl::zone {
 namespace {
-
-/// The segment between two different vertices of the network.
-Index find_segment(const Network& network, Index u, Index v) {
-  const auto segments = network.segments();
-  const Network::Segment wanted{std::min(u, v), std::max(u, v)};
-  const auto found = std::lower_bound(segments.begin(), segments.end(), wanted, [](const auto& s, const auto& t) {
-    return s.a != t.a ? s.a < t.a : s.b < t.b;
-  });
-  return Index(found - segments.begin());
-}
 
 struct Widths {
   std::vector<double> segment;  // the largest radius of the parts that have it
@@ -23,18 +15,15 @@ struct Widths {
 Widths widths(const Network& network, std::span<const double> part_radii) {
   Widths w{std::vector<double>(network.segments().size(), 0), std::vector<double>(network.vertices().size(), 0)};
   for (Index p = 0; p < network.part_count(); ++p) {
-    const auto chain = network.part(p);
     const double r = part_radii[p];
     bool is_point = true;
-    const auto widen = [&](Index u, Index v) {
-      if (u == v) return;
+    for_each_segment_of(network, p, [&](Index u, Index v) {
       is_point = false;
       double& width = w.segment[find_segment(network, u, v)];
       width = std::max(width, r);
-    };
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i) widen(chain[i], chain[i + 1]);
-    if (network.part_is_ring(p) && chain.size() > 2) widen(chain.back(), chain.front());
-    if (is_point) w.point[chain[0]] = std::max(w.point[chain[0]], r);
+    });
+    double& width = w.point[network.part(p)[0]];
+    if (is_point) width = std::max(width, r);
   }
   return w;
 }
