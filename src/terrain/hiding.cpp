@@ -396,6 +396,18 @@ bool Envelope<Real>::stays_hidden(Index c, const Box& box, std::span<const Index
   return stays_hidden(c, first, labels, depth - 1) && stays_hidden(c, second, labels, depth - 1);
 }
 
+/// True if a sphere's patch lies beyond its seam to an edge, but for what is nearer to the wall than `least_up` above it: there
+/// the seam is tangent to the wall.
+template <class Real>
+bool Envelope<Real>::lies_beyond_seam(Index sphere, Index edge, const BoxFrame& frame, Real least_up) const {
+  if (patches_[sphere].kind != FeatureKind::vertex) return false;
+  for (const Bound& b : patches_.bounds(sphere)) {
+    if (b.partner != edge || b.type != BoundType::cone) continue;
+    if (b.negative ? extreme<1>(b, frame, least_up) >= 0 : extreme<-1>(b, frame, least_up) > 0) return true;
+  }
+  return false;
+}
+
 /// Bodies are concave, and so are weighted means of two of them: least against a plane at the corners of the box. What
 /// is hardly above the rims of two walls back to back is below the bodies soon inside of them, which rise there like
 /// square roots.
@@ -415,7 +427,8 @@ bool Envelope<Real>::hidden_within_tolerance(Index i, std::span<const Index> upp
   const Real rim_up = square_root(patches_.radius() *
                                   rim_width_);  // above the foot of a wall, where both precisions leave out what shows
   for (std::size_t u = 0; u < uppers.size() && count < most && walls < most; ++u) {
-    if (hidden_beside(i, uppers[u], frame, rim_up)) return true;
+    if (hidden_beside(i, uppers[u], frame, rim_up) || (is_fine<Real> && lies_beyond_seam(i, uppers[u], frame, rim_up)))
+      return true;
     bool reaches = true;
     for (int k = 0; k < 4 && reaches; ++k) {
       const Real body = patches_.body_height(uppers[u], corner[k]);
