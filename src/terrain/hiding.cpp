@@ -385,7 +385,7 @@ bool Envelope<Real>::stays_hidden(Index c, const Box& box, std::span<const Index
   if (!domain_meets(c, frame)) return true;
   Cover cover(*this, frame, labels);
   if (cover.hides(c) || (is_fine<Real> && cover.hides_within_ends(c))) return true;
-  if (far_ && hidden_by_balls(c, labels, part)) return true;
+  if ((far_ || is_fine<Real>) && hidden_by_balls(c, labels, part)) return true;
   if (is_fine<Real> && hidden_by_feature(c, labels, frame)) return true;
   if (depth == 0) return false;
   Box first = part, second = part;
