@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
 #include "input/network_reader.hpp"
 #include "krepl/voronoi.hpp"
@@ -37,11 +36,8 @@ Status check_engine(const std::string& engine) {
                "give --engine auto, intervals or voronoi"};
 }
 
-/// A diagram costs about as much as a dozen zones without one (docs/voronoi.md, "Cost"); it ends at its horizon.
 bool wants_diagram(const std::string& engine, const std::vector<double>& radii, const Network& network) {
-  constexpr std::size_t many = 16;
-  if (engine != "auto") return engine == "voronoi";
-  return radii.size() >= many && *std::max_element(radii.begin(), radii.end()) < network.extent();
+  return engine == "auto" ? diagram_pays(network, radii) : engine == "voronoi";
 }
 
 Result<BufferPlan> make_plan(const BufferOptions& options) {
