@@ -65,7 +65,7 @@ class Union {
       const std::size_t curves = curves_of(outlines_);
       // Rounds that take away much are worth more of them; crossings tell for certain.
       if (left > 0.7 || outlines_.size() <= fan) {
-        auto all = sweep_all(outlines_.size() <= fan ? unlimited : most_per_curve * curves + 1000);
+        auto all = sweep_all(outlines_.size() <= fan ? unlimited : most_per_curve * curves + 64);
         if (!all) return all.error();
         if (*all) return std::move(**all);
       }
@@ -75,7 +75,7 @@ class Union {
   }
 
  private:
-  static constexpr std::uint64_t most_per_curve = 6;
+  static constexpr std::uint64_t most_per_curve = 1;
 
   Result<std::optional<Outline>> sweep_all(std::uint64_t most) {
     ++counters_.rounds;
@@ -159,9 +159,11 @@ Result<Zone> compute_zone_by_sweep(std::shared_ptr<const Network> network, const
     sweep::Union cigars(geometry, context, own);
     const auto boundary =
         options.clean_up == SweepOptions::CleanUp::rounds ? cigars.in_rounds() : cigars.at_once(options.most_crossings);
+    sweep::Predicates predicates(geometry);
+    if (boundary) pieces = sweep::pieces_of(*boundary, predicates);
+    sweep::add(own, predicates.counters);
     if (counters != nullptr) *counters = own;
     if (!boundary) return boundary.error();
-    pieces = sweep::pieces_of(*boundary, geometry);
   }
   auto linked = zone::link_pieces(instance, pieces, context);
   if (!linked) return linked.error();

@@ -162,11 +162,12 @@ Place<Real> Geometry::circle_and_circle(Index from, Index to) const {
 
 template <class Real>
 Place<Real> Geometry::place(const Vertex& v) const {
-  if (v.is_extreme()) {
+  if (v.is_on_one_circle()) {
     const Real r = radius<Real>();
     const Vector<Real> c = position<Real>(vertex_of(v.from));
-    return {{v.to == Vertex::leftmost ? Real(c.x - r) : Real(c.x + r), c.y},
-            position_error<Real>() + Real(8 * unit_roundoff<Real>) * r};
+    const Real error = position_error<Real>() + Real(8 * unit_roundoff<Real>) * r;
+    if (v.to == Vertex::start) return {c + turned(Vector<Real>{Real(in_.radius()), Real(0)}), error};
+    return {{v.to == Vertex::leftmost ? Real(c.x - r) : Real(c.x + r), c.y}, error};
   }
   const bool side = is_side(v.from), other_side = is_side(v.to);
   if (side && other_side) return side_and_side<Real>(v.from, v.to);

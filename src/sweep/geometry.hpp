@@ -59,15 +59,17 @@ struct Place {
 
 /// A place where the boundary leaves element `from` for element `to`: a crossing of the two, or, of a side and a circle
 /// about its own end, where they touch. Two elements meet at most once in that order, so the pair names the place. An
-/// extreme is the leftmost or rightmost point of a circle, where its lower and its upper half meet.
+/// extreme is the leftmost or rightmost point of a circle, where its lower and its upper half meet; its start is where
+/// circles about isolated vertices begin.
 struct Vertex {
-  static constexpr Index leftmost = none - 1, rightmost = none - 2;
+  static constexpr Index leftmost = none - 1, rightmost = none - 2, start = none - 3;
 
   Index from = none, to = none;
   bool from_upper = false, to_upper = false;  ///< the halves it lies on, where `from` or `to` are circles
   double x = 0, y = 0, error = 0;             ///< as far as double precision tells
 
   bool is_extreme() const { return to == leftmost || to == rightmost; }
+  bool is_on_one_circle() const { return is_extreme() || to == start; }
   bool is_same(const Vertex& o) const { return from == o.from && to == o.to; }
 };
 

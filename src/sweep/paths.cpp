@@ -91,7 +91,8 @@ class Tracer {
   explicit Tracer(Predicates& predicates) : predicates_(predicates), geometry_(predicates.geometry()) {}
 
   Outline circle(Index element) {
-    const Index left = add(predicates_.extreme(element, true)), right = add(predicates_.extreme(element, false));
+    const Index left = add(predicates_.on_circle(element, Vertex::leftmost));
+    const Index right = add(predicates_.on_circle(element, Vertex::rightmost));
     outline_.curves.push_back({element, left, right, false, true, 1});
     outline_.curves.push_back({element, left, right, true, false, 1});
     return std::move(outline_);
@@ -182,7 +183,7 @@ class Tracer {
     } else if (!start_upper && !end_upper) {
       curves.push_back({circle, start, end, false, true, multiplicity});
     } else {
-      const Index extreme = add(predicates_.extreme(circle, start_upper));
+      const Index extreme = add(predicates_.on_circle(circle, start_upper ? Vertex::leftmost : Vertex::rightmost));
       if (start_upper) {
         curves.push_back({circle, extreme, start, true, false, multiplicity});
         curves.push_back({circle, extreme, end, false, true, multiplicity});

@@ -51,10 +51,10 @@ Vertex Predicates::vertex(Index from, Index to) {
   return v;
 }
 
-Vertex Predicates::extreme(Index circle, bool left) {
+Vertex Predicates::on_circle(Index circle, Index which) {
   Vertex v;
   v.from = circle;
-  v.to = left ? Vertex::leftmost : Vertex::rightmost;
+  v.to = which;
   const auto p = geometry_.place<double>(v);
   v.x = p.at.x, v.y = p.at.y, v.error = p.error;
   return v;
@@ -116,7 +116,7 @@ int Predicates::locate(const Vertex& p, const Curve& curve) {
     return 2;
   };
   if (const int at = touches(p.from, p.from_upper); at != 2) return at;
-  if (!p.is_extreme()) {
+  if (!p.is_on_one_circle()) {
     if (const int at = touches(p.to, p.to_upper); at != 2) return at;
   }
   if (!geometry_.is_side(curve.element)) {
@@ -125,7 +125,7 @@ int Predicates::locate(const Vertex& p, const Curve& curve) {
   // A circle about an end of a side's segment is on the segment's side of it.
   const auto ends = geometry_.instance().ends(curve.element);
   const auto is_about_end = [&](Index element) {
-    if (element >= Vertex::rightmost || geometry_.is_side(element)) return false;
+    if (element >= Vertex::start || geometry_.is_side(element)) return false;
     const Index v = geometry_.vertex_of(element);
     return v == ends.from || v == ends.to;
   };

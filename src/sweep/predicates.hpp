@@ -33,7 +33,8 @@ class Predicates {
   Vertex vertex(Index from, Index to);
   /// The one where a side touches the circle about its end; the half is left to the caller.
   Vertex touching(Index from, Index to) { return placed(from, to); }
-  Vertex extreme(Index circle, bool left);
+  /// A place on one circle: Vertex::leftmost, rightmost or start.
+  Vertex on_circle(Index circle, Index which);
   /// From left to right, at equal x from below: -1, 0 (the same vertex only) or 1.
   int compare(const Vertex& p, const Vertex& q);
   /// Where a vertex is as seen from a curve whose range of x it is in: -1 below, 0 on it, 1 above.
