@@ -165,9 +165,11 @@ class Tracer {
       if (!is_convex(i, i + 1)) {
         const auto p = geometry_.line<double>(e), q = geometry_.line<double>(f);
         const double sine = -cross(p.direction, q.direction), cosine = dot(p.direction, q.direction);
-        const double t = geometry_.radius<double>() * std::max(sine, 0.0) / (1 + cosine);
+        // Segments as short as the move of vertices lets turn far may cut off more than is seen.
+        const double tangent = (std::max(sine, 0.0) + 2 * (p.direction_error + q.direction_error)) / (1 + cosine);
+        const double t = geometry_.radius<double>() * tangent;
         constexpr double most = 0.999;
-        cut_[i] = cosine > -0.999 && t + taken < most * geometry_.span(e) && t < most * geometry_.span(f);
+        cut_[i] = cosine > -0.9 && t + taken < most * geometry_.span(e) && t < most * geometry_.span(f);
         at_end = cut_[i] ? t : 0;
       }
       taken = at_end;

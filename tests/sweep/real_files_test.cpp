@@ -46,7 +46,8 @@ TEST(SweepRealFiles, AgreeWithIntervalsAtAllRadii) {
       const double end = processor_seconds();
       ASSERT_TRUE(by_intervals.ok()) << by_intervals.error().text();
       ASSERT_TRUE(by_sweep.ok()) << by_sweep.error().text();
-      EXPECT_EQ(any_difference(*by_intervals, *by_sweep).value_or("same"), "same") << "R = " << lengths << " mean lengths";
+      EXPECT_EQ(any_difference(*by_intervals, *by_sweep).value_or("same"), "same")
+          << "R = " << lengths << " mean lengths";
       EXPECT_EQ(by_sweep->validate().value_or("sound"), "sound");
       EXPECT_EQ(counters.ties, 0u);
       std::printf(
