@@ -17,7 +17,7 @@ _krepl() {
       [[ $verb == terrain ]] && formats="json gpkg step tif stl ply glb png"
       mapfile -t COMPREPLY < <(compgen -W "$formats" -- "$current"); return ;;
     --engine)
-      local engines="auto intervals voronoi"
+      local engines="auto intervals voronoi sweep"
       [[ $verb == terrain ]] && engines="auto incremental"
       mapfile -t COMPREPLY < <(compgen -W "$engines" -- "$current"); return ;;
     --zones) mapfile -t COMPREPLY < <(compgen -W "sub-river stem whole" -- "$current"); return ;;
@@ -37,7 +37,7 @@ _krepl() {
   esac
   local command=("$verb")
   if [[ $verb == lab ]]; then
-    local names="lower-bound profiles pseudospheres components conjecture search real list" name=
+    local names="lower-bound profiles sweep pseudospheres components conjecture search real list" name=
     for word in "${COMP_WORDS[@]:2:COMP_CWORD-2}"; do
       case " $names " in *" $word "*) name=$word; break ;; esac
     done
