@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "feature_buffer.hpp"
 #include "input/geometry_source.hpp"
 #include "input/profile_reader.hpp"
 #include "input/result_file.hpp"
@@ -102,9 +103,20 @@ Error violation(const char* what, double radius, const std::vector<verify::Check
   return error;
 }
 
+/// All polygons are one zone, whose radius is the largest of the features'.
+ZonesByRadius as_one_zone(std::vector<input::ResultZone> zones, const std::vector<verify::InputPart>& parts) {
+  double largest = 0;
+  for (const verify::InputPart& part : parts) largest = std::max(largest, part.radius);
+  ZonesByRadius all;
+  for (input::ResultZone& zone : zones)
+    std::move(zone.polygons.begin(), zone.polygons.end(), std::back_inserter(all[largest]));
+  return all;
+}
+
 int verify_zones(const VerifyOptions& options, Session& session) {
   std::vector<double> radii;
-  if (!options.radius.empty()) {
+  const bool varied = !options.input.radius_field.empty() || !options.input.radius_expression.empty();
+  if (!options.radius.empty() && !varied) {
     auto parsed = parse_radii(options.radius);
     if (!parsed) return session.fail("", parsed.error());
     radii = std::move(*parsed);
@@ -118,14 +130,15 @@ int verify_zones(const VerifyOptions& options, Session& session) {
   }
   auto zones = input::read_zones(options.result);
   if (!zones) return session.fail(options.result, zones.error());
-  auto groups = group(std::move(*zones), radii);
-  if (!groups) return session.fail(options.result, groups.error());
-  if (groups->empty()) return session.fail(options.result, {ErrorCode::input, "holds no zone", "", ""});
   auto parts = verify::read_parts(options.input, session.context("reading"));
   session.finish_progress();
   if (!parts) return session.fail(options.input.path, parts.error());
+  Result<ZonesByRadius> groups =
+      varied ? Result<ZonesByRadius>(as_one_zone(std::move(*zones), *parts)) : group(std::move(*zones), radii);
+  if (!groups) return session.fail(options.result, groups.error());
+  if (groups->empty()) return session.fail(options.result, {ErrorCode::input, "holds no zone", "", ""});
 
-  const verify::Obstacle obstacle(*parts);
+  const verify::Obstacle obstacle(*parts, groups->rbegin()->first);
   int status = 0;
   for (const auto& [radius, polygons] : *groups) {
     check.radius = radius;
@@ -197,7 +210,11 @@ int verify_surface(const VerifyOptions& options, Session& session) {
   return 0;
 }
 
-int run_verify(const VerifyOptions& options, Session& session) {
+int run_verify(const VerifyOptions& given, Session& session) {
+  VerifyOptions options = given;
+  if (is_radius_expression(options.radius)) options.input.radius_expression = options.radius;
+  if (!options.radius.empty() && !options.input.radius_field.empty())
+    return session.fail("", {ErrorCode::usage, "--radius and --radius-field exclude each other", "", "give one of them"});
   const std::string extension = input::format_extension(options.result);
   if (extension == "json" && input::looks_like_subdivision(options.result)) return verify_surface(options, session);
   if (!options.terrain.split.empty() || !options.terrain.z_scale.empty() || options.terrain.request.band != 0)
@@ -215,8 +232,10 @@ void add_verify_verb(CLI::App& program, Session& session) {
   verb->add_option("--against", options->input.path, "The input that the result was made from")
       ->required()
       ->type_name("IN");
-  verb->add_option("--radius", options->radius, "Radius or radii; may be left out where the result tells them")
+  verb->add_option("--radius", options->radius, "Radius or radii, or an expression of the input's fields; may be left out where the result tells them")
       ->type_name("R");
+  verb->add_option("--radius-field", options->input.radius_field, "Field of the input that holds each feature's radius")
+      ->type_name("NAME");
   verb->add_option("--layer", options->input.layer, "Layer of the input")->type_name("NAME");
   verb->add_option("--where", options->input.where, "Condition on the input's fields (OGR SQL)")->type_name("SQL");
   verb->add_option("--crs", options->input.crs, "Coordinate system of the input, in place of its own")

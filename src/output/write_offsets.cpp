@@ -25,8 +25,8 @@ Error interrupted() { return {ErrorCode::cancelled, "interrupted while writing",
 /// The arc as zones have it: counter-clockwise.
 Zone::Piece as_zone_piece(const Piece& p) {
   const Zone::Kind kind = p.arc ? Zone::Kind::arc : Zone::Kind::segment;
-  return p.arc && p.clockwise ? Zone::Piece{kind, p.end, p.start, p.center, 0, false}
-                              : Zone::Piece{kind, p.start, p.end, p.center, 0, false};
+  return p.arc && p.clockwise ? Zone::Piece{kind, p.end, p.start, p.center, 0, false, 0}
+                              : Zone::Piece{kind, p.start, p.end, p.center, 0, false, 0};
 }
 
 bool is_arc(const Piece& p) { return p.arc && !is_negligible(as_zone_piece(p)); }
