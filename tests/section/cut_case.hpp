@@ -23,6 +23,7 @@ struct CutCase {
   std::shared_ptr<const Surface> surface;
   std::optional<DropCutter> cutter;
   std::optional<SurfaceCutter> cuts;
+  std::vector<SmallTerrain::Triangle> triangles;  ///< relative to the terrain's origin; of small terrains only
 
   double scale() const { return std::max(surface->radius(), terrain->extent()); }
   /// -infinity where the ball touches nothing.
