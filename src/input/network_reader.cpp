@@ -1,5 +1,7 @@
 #include "input/network_reader.hpp"
 
+#include <fmt/format.h>
+
 #include "input/geometry_source.hpp"
 #include "input/parts.hpp"
 #include "input/projection.hpp"
@@ -15,8 +17,9 @@ struct Collected {
   std::size_t with_geometry = 0, without_geometry = 0;
 };
 
-Result<Collected> collect(GeometrySource& source, const Context& context) {
+Result<Collected> collect(GeometrySource& source, double arc_error, const Context& context) {
   Collected all;
+  all.parts.arc_error = arc_error;
   for (std::size_t count = 0;; ++count) {
     if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while reading", "", ""};
     if (context.progress && count % 256 == 0) context.progress(source.fraction());
@@ -88,7 +91,7 @@ Result<std::vector<Point>> projected_places(const NetworkRequest& request, const
 Result<NetworkData> read_network(const NetworkRequest& request, const Context& context) {
   auto source = open_geometry_source(request.path, {request.layer, request.where}, context);
   if (!source) return source.error();
-  Result<Collected> all = collect(**source, context);
+  Result<Collected> all = collect(**source, request.arc_error, context);
   if (!all) return all.error();
   Parts& parts = all->parts;
   if (parts.size() == 0) return nothing_found(request, *all);
@@ -98,6 +101,10 @@ Result<NetworkData> read_network(const NetworkRequest& request, const Context& c
   data.notes = (*source)->notes();
   if (all->without_geometry > 0) {
     data.notes.push_back("note: " + std::to_string(all->without_geometry) + " features without geometry are left out");
+  }
+  if (parts.arcs > 0) {
+    data.notes.push_back(fmt::format("note: chords stand for {} arcs and deviate by {:.3g} at most; what is made of them "
+                                     "is off by as much", parts.arcs, parts.arc_deviation));
   }
   if (parts.has_height) data.notes.emplace_back("note: Z and M values are left out");
 

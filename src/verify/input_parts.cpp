@@ -9,8 +9,9 @@ namespace krepl::verify {
 
 namespace {
 
-Result<input::Parts> read_all(input::GeometrySource& source, const Context& context) {
+Result<input::Parts> read_all(input::GeometrySource& source, double arc_error, const Context& context) {
   input::Parts parts;
+  parts.arc_error = arc_error;
   for (;;) {
     if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while reading", "", ""};
     auto item = source.next();
@@ -39,7 +40,7 @@ std::vector<InputPart> plain(const input::Parts& parts) {
 Result<std::vector<InputPart>> read_parts(const InputRequest& request, const Context& context) {
   auto source = input::open_geometry_source(request.path, {request.layer, request.where}, context);
   if (!source) return source.error();
-  auto parts = read_all(**source, context);
+  auto parts = read_all(**source, request.arc_error, context);
   if (!parts) return parts.error();
   if (parts->size() == 0)
     return Error{ErrorCode::input, "has no geometry to check against", "", "give the input of the result"};
