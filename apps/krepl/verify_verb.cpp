@@ -11,6 +11,7 @@
 #include "input/profile_reader.hpp"
 #include "input/result_file.hpp"
 #include "input/subdivision_file.hpp"
+#include "network_options.hpp"
 #include "terrain_options.hpp"
 #include "verbs.hpp"
 #include "verify/input_parts.hpp"
@@ -242,6 +243,7 @@ void add_verify_verb(CLI::App& program, Session& session) {
       ->type_name("CRS");
   verb->add_option("--to-crs", options->input.to_crs, "Projection that the result was made with")
       ->type_name("CRS|auto");
+  add_arc_option(*verb, options->input.arc_error);
   verb->add_option("--samples", options->samples,
                    "Number of points whose membership is tested, or at which the ball is let down (default: some "
                    "seconds' worth)")

@@ -162,11 +162,13 @@ enum { KREPL_SEGMENT = 0, KREPL_ARC = 1, KREPL_HALF_LINE = 2 };
 typedef struct krepl_piece {
   double start_x, start_y;
   double end_x, end_y;       /* the next piece of the ring starts there */
-  double center_x, center_y; /* arcs: counter-clockwise about it, start == end: all the circle; NaN for segments */
+  double center_x, center_y; /* arcs: start == end is all the circle about it; NaN for segments */
+  double radius;             /* arcs: that of the zone; NaN for segments */
   int64_t feature;           /* what causes it: the feature's number as the caller gave it, */
   uint32_t part;             /* the running number of the line, ring or point, */
   uint32_t vertex;           /* and the vertex of that part (for segments: the first of two) */
   int32_t kind;              /* KREPL_SEGMENT or KREPL_ARC */
+  int32_t clockwise;         /* the sense of an arc; 0: counter-clockwise, as all are in this version */
 } krepl_piece;
 
 typedef struct krepl_ring {

@@ -14,16 +14,17 @@ struct krepl_builder {
 
 namespace {
 
-using AddPart = void (krepl::Network::Builder::*)(std::span<const krepl::Point>, std::int64_t);
-
 krepl_status add_part(krepl_context* context, krepl_builder* builder, const double* xy, size_t count, int64_t feature,
-                      AddPart add) {
+                      bool ring) {
   return ci::guarded(context, [&]() -> krepl_status {
     if (builder == nullptr) return ci::fail(context, KREPL_ERROR_USAGE, "the builder is NULL");
     if (xy == nullptr && count > 0) return ci::fail(context, KREPL_ERROR_USAGE, "the array of coordinates is NULL");
     std::vector<krepl::Point> points(count);
     for (std::size_t i = 0; i < count; ++i) points[i] = {xy[2 * i], xy[2 * i + 1]};
-    (builder->builder.*add)(points, feature);
+    if (ring)
+      builder->builder.add_ring(points, feature);
+    else
+      builder->builder.add_line(points, feature);
     return KREPL_OK;
   });
 }
@@ -36,12 +37,12 @@ void krepl_builder_destroy(krepl_builder* builder) { delete builder; }
 
 krepl_status krepl_builder_add_line(krepl_context* context, krepl_builder* builder, const double* xy, size_t count,
                                     int64_t feature) {
-  return add_part(context, builder, xy, count, feature, &krepl::Network::Builder::add_line);
+  return add_part(context, builder, xy, count, feature, false);
 }
 
 krepl_status krepl_builder_add_ring(krepl_context* context, krepl_builder* builder, const double* xy, size_t count,
                                     int64_t feature) {
-  return add_part(context, builder, xy, count, feature, &krepl::Network::Builder::add_ring);
+  return add_part(context, builder, xy, count, feature, true);
 }
 
 krepl_status krepl_builder_add_point(krepl_context* context, krepl_builder* builder, double x, double y,

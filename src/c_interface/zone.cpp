@@ -104,6 +104,7 @@ krepl_piece piece_of(const krepl::Zone& zone, std::size_t e) {
   result.end_y = piece.end.y;
   result.center_x = arc ? piece.center.x : not_a_number;
   result.center_y = arc ? piece.center.y : not_a_number;
+  result.radius = arc ? zone.radius() : not_a_number;
   result.feature = source.feature;
   result.part = source.part;
   result.vertex = source.vertex;

@@ -51,6 +51,7 @@ static void check_piece(const krepl_piece* piece, double radius) {
   CHECK(piece->feature == 10 || piece->feature == 20 || piece->feature == 30);
   CHECK(piece->part == (uint32_t)(piece->feature / 10 - 1));
   if (piece->kind == KREPL_ARC) {
+    CHECK(piece->radius == radius && piece->clockwise == 0);
     CHECK(fabs(hypot(piece->end_x - piece->center_x, piece->end_y - piece->center_y) - radius) < 1e-9);
     CHECK(distance(piece->center_x, piece->center_y) < 1e-9);
   } else {
