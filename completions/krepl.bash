@@ -20,6 +20,14 @@ _krepl() {
       local engines="auto intervals voronoi sweep"
       [[ $verb == terrain ]] && engines="auto incremental"
       mapfile -t COMPREPLY < <(compgen -W "$engines" -- "$current"); return ;;
+    --owner) mapfile -t COMPREPLY < <(compgen -W "nearest" -- "$current"); return ;;
+    --radius-field | --dissolve-by)  # the fields of the input
+      for word in "${COMP_WORDS[@]:2}"; do
+        [[ -f $word ]] || continue
+        mapfile -t COMPREPLY < <(compgen -W "$(ogrinfo -q -ro -so -al "$word" 2>/dev/null | sed -nE 's/^([A-Za-z_][A-Za-z0-9_]*): (Integer|Real|String|Date|Time).*/\1/p')" -- "$current")
+        return
+      done
+      return ;;
     --zones) mapfile -t COMPREPLY < <(compgen -W "sub-river stem whole" -- "$current"); return ;;
     --outlet) mapfile -t COMPREPLY < <(compgen -W "guess" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "mm cm m km in ft" -- "$current"); return ;;

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
-#include <unordered_map>
 
 #include "feature_zones.hpp"
 #include "input/feature_reader.hpp"
@@ -32,39 +31,14 @@ Status check_options(const FeatureJob& job) {
   if (!f.owner.empty() && f.owner != "nearest") return usage("--owner '" + f.owner + "' is unknown", "give --owner nearest");
   if (!f.owner.empty() && own_radius)
     return usage("--owner nearest needs one radius for all features", "give a number with --radius");
-  if (job.engine != "auto" && job.engine != "intervals")
-    return usage("features are computed by the engine intervals only", "leave out --engine");
+  const char* engine = f.owner.empty() ? "intervals" : "voronoi";
+  if (job.engine != "auto" && job.engine != engine)
+    return usage("engine '" + job.engine + "' does not do this", std::string("give --engine ") + engine);
   if (grouped && job.file.separate)
     return usage("--separate does not go with a zone for each feature or group", "leave it out");
   if (grouped && !output::holds_features(job.format))
     return usage("format " + job.format.name + " holds no features", "choose gpkg, fgb, geojson, shp, wkt or wkb");
   return std::monostate{};
-}
-
-/// Features of equal value in the field, in the order of first occurrence; those without a value make a group too.
-std::vector<FeatureGroup> groups_by_field(const input::FeatureData& data, const std::string& name) {
-  std::vector<FeatureGroup> groups;
-  std::unordered_map<std::string, std::size_t> known;
-  const int field = data.row.front()->GetDefnRef()->GetFieldIndex(name.c_str());
-  for (std::size_t i = 0; i < data.size(); ++i) {
-    const bool null = !data.row[i]->IsFieldSetAndNotNull(field);
-    const std::string key = null ? "" : std::string("=") + data.row[i]->GetFieldAsString(field);
-    const auto [at, is_new] = known.emplace(key, groups.size());
-    if (is_new) groups.push_back({{}, data.row[i].get(), ""});
-    groups[at->second].features.push_back(i);
-  }
-  for (FeatureGroup& group : groups) {
-    group.name = data.place[group.features.front()];
-    if (group.features.size() > 1) group.name += fmt::format(" and {} more", group.features.size() - 1);
-  }
-  return groups;
-}
-
-std::vector<FeatureGroup> single_groups(const input::FeatureData& data) {
-  std::vector<FeatureGroup> groups(data.size());
-  for (std::size_t i = 0; i < data.size(); ++i)
-    groups[i] = {{i}, data.row.empty() ? nullptr : data.row[i].get(), data.place[i]};
-  return groups;
 }
 
 /// One dissolved zone whose features have radii of their own.
@@ -118,7 +92,9 @@ void add_feature_options(CLI::App& verb, FeatureOptions& options) {
 void tell(const output::ZoneFileReport& report, const FeatureJob& job, Session& session) {
   const std::string out_name = output_name(job.output);
   for (const std::string& note : report.notes) session.note(out_name, note);
-  if (report.deviation) {
+  if (report.deviation && !job.features.owner.empty()) {
+    session.note(out_name, fmt::format("note: chords deviate from the true borders by {:.6g} at most", *report.deviation));
+  } else if (report.deviation) {
     session.note(out_name, fmt::format("note: {} has no arcs; the polygons deviate from the true zone by {:.6g} at most",
                                        job.format.name, *report.deviation));
   }
@@ -145,8 +121,9 @@ int run_feature_buffer(const FeatureJob& job, Session& session) {
   with_crs.file.crs = data->crs;
   const FeatureOptions& f = job.features;
   if (!f.per_feature && f.dissolve_by.empty() && f.owner.empty()) return write_dissolved(with_crs, *data, session, total);
-  const auto groups = f.dissolve_by.empty() ? single_groups(*data) : groups_by_field(*data, f.dissolve_by);
-  return write_groups({with_crs, *data, groups, radii}, session);
+  const auto groups = make_groups(*data, f.dissolve_by);
+  const GroupJob all{with_crs, *data, groups, radii};
+  return f.owner.empty() ? write_groups(all, session) : write_owners(all, session);
 }
 
 }  // namespace krepl::app

@@ -107,6 +107,8 @@ output::ZoneRow row_of(const Zone& zone, const output::ZoneFileOptions& file, co
   return row;
 }
 
+}  // namespace
+
 output::FeatureColumns columns_of(const GroupJob& job) {
   output::FeatureColumns columns;
   if (!job.data.row.empty()) columns.kept = job.data.row.front()->GetDefnRef();
@@ -118,19 +120,11 @@ output::FeatureColumns columns_of(const GroupJob& job) {
   return columns;
 }
 
-}  // namespace
-
-std::vector<std::size_t> all_features(const input::FeatureData& data) {
-  std::vector<std::size_t> all(data.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  return all;
-}
-
 void add_features(const input::FeatureData& data, const std::vector<std::size_t>& features, Network::Builder& builder,
                   std::vector<double>& radii) {
   for (const std::size_t f : features) {
     for (std::size_t i = data.part_begin[f]; i < data.part_begin[f + 1]; ++i) {
-      input::add_part(builder, data.parts, i);
+      input::add_part(builder, data.parts, i, data.parts.feature[i]);
       if (!data.radius.empty()) radii.push_back(data.radius[f]);
     }
   }

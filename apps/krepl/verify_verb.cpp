@@ -14,6 +14,7 @@
 #include "network_options.hpp"
 #include "terrain_options.hpp"
 #include "verbs.hpp"
+#include "verify_features.hpp"
 #include "verify/input_parts.hpp"
 #include "verify/profile_verifier.hpp"
 #include "verify/surface_verifier.hpp"
@@ -29,6 +30,7 @@ struct VerifyOptions {
   std::string radius, max_error;
   TerrainOptions terrain;
   std::uint64_t samples = 0;
+  FeatureOptions features;
 };
 
 /// Polygons by radius: a file may hold several zones, and a zone may be spread over several features.
@@ -54,7 +56,9 @@ Result<ZonesByRadius> group(std::vector<input::ResultZone> zones, const std::vec
   return groups;
 }
 
-void print(Session& session, const std::vector<verify::Check>& checks) {
+}  // namespace
+
+void print_checks(Session& session, const std::vector<verify::Check>& checks) {
   session.summary(
       fmt::format("{:<28} {:>9} {:>7} {:>10} {:>10}  {}", "check", "tested", "wrong", "worst", "allowed", "worst at"));
   for (const verify::Check& check : checks) {
@@ -66,12 +70,14 @@ void print(Session& session, const std::vector<verify::Check>& checks) {
   }
 }
 
+namespace {
+
 void print(Session& session, const verify::ZoneReport& report) {
   session.summary(fmt::format("zone of radius {}: {} polygons, {} holes, {} pieces, {} of them arcs", report.radius,
                               report.polygons, report.holes, report.pieces, report.arcs));
   session.summary(fmt::format("area {:.15g}, length {:.15g}, S {:.6g}, tolerance {:.2g}", report.area, report.perimeter,
                               report.scale, report.tolerance));
-  print(session, report.checks);
+  print_checks(session, report.checks);
 }
 
 void print(Session& session, const verify::ProfileReport& report) {
@@ -79,7 +85,7 @@ void print(Session& session, const verify::ProfileReport& report) {
       fmt::format("profile of radius {}: {} segments in, {} pieces out, {} of them arcs, {} explicit vertices",
                   report.radius, report.segments, report.pieces, report.arcs, report.explicit_vertices));
   session.summary(fmt::format("S {:.6g}, tolerance {:.2g}", report.scale, report.tolerance));
-  print(session, report.checks);
+  print_checks(session, report.checks);
 }
 
 void print(Session& session, const verify::SurfaceReport& report) {
@@ -88,7 +94,7 @@ void print(Session& session, const verify::SurfaceReport& report) {
       report.radius, report.triangles, report.faces, report.edges, report.vertices, report.components, report.holes));
   session.summary(fmt::format("area of the projection {:.12g}, S {:.6g}, tolerance {:.2g}", report.area, report.scale,
                               report.tolerance));
-  print(session, report.checks);
+  print_checks(session, report.checks);
 }
 
 /// "is not the WHAT of radius R: names of the broken checks, near X Y".
@@ -129,6 +135,9 @@ int verify_zones(const VerifyOptions& options, Session& session) {
     if (!parsed) return session.fail("", parsed.error());
     check.max_error = *parsed;
   }
+  const FeatureOptions& f = options.features;
+  if (f.per_feature || !f.dissolve_by.empty() || !f.owner.empty())
+    return verify_features({options.result, options.input, f, radii, check.max_error, options.samples}, session);
   auto zones = input::read_zones(options.result);
   if (!zones) return session.fail(options.result, zones.error());
   auto parts = verify::read_parts(options.input, session.context("reading"));
@@ -237,6 +246,10 @@ void add_verify_verb(CLI::App& program, Session& session) {
       ->type_name("R");
   verb->add_option("--radius-field", options->input.radius_field, "Field of the input that holds each feature's radius")
       ->type_name("NAME");
+  verb->add_flag("--per-feature", options->features.per_feature, "The result was made with --per-feature");
+  verb->add_option("--dissolve-by", options->features.dissolve_by, "The result was made with --dissolve-by FIELD")
+      ->type_name("FIELD");
+  verb->add_option("--owner", options->features.owner, "The result was made with --owner nearest")->type_name("NAME");
   verb->add_option("--layer", options->input.layer, "Layer of the input")->type_name("NAME");
   verb->add_option("--where", options->input.where, "Condition on the input's fields (OGR SQL)")->type_name("SQL");
   verb->add_option("--crs", options->input.crs, "Coordinate system of the input, in place of its own")

@@ -58,18 +58,18 @@ Result<std::optional<OGRSpatialReference>> crs_of_data(const NetworkRequest& req
   return std::optional<OGRSpatialReference>(*assigned);
 }
 
-void add_part(Network::Builder& builder, const Parts& parts, std::size_t i) {
+void add_part(Network::Builder& builder, const Parts& parts, std::size_t i, std::int64_t feature) {
   std::span<const Point> vertices(parts.points.data() + parts.begin[i], parts.begin[i + 1] - parts.begin[i]);
   switch (parts.kind[i]) {
-    case Parts::Kind::line: builder.add_line(vertices, parts.feature[i]); break;
-    case Parts::Kind::ring: builder.add_ring(vertices, parts.feature[i]); break;
-    case Parts::Kind::point: builder.add_point(vertices.front(), parts.feature[i]); break;
+    case Parts::Kind::line: builder.add_line(vertices, feature); break;
+    case Parts::Kind::ring: builder.add_ring(vertices, feature); break;
+    case Parts::Kind::point: builder.add_point(vertices.front(), feature); break;
   }
 }
 
 Result<Network> build_network(const Parts& parts, const Context& context) {
   Network::Builder builder;
-  for (std::size_t i = 0; i < parts.size(); ++i) add_part(builder, parts, i);
+  for (std::size_t i = 0; i < parts.size(); ++i) add_part(builder, parts, i, parts.feature[i]);
   return std::move(builder).build(context);
 }
 

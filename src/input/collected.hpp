@@ -32,7 +32,7 @@ Result<std::optional<OGRSpatialReference>> crs_of_data(const NetworkRequest& req
 
 /// The parts as a network.
 Result<Network> build_network(const Parts& parts, const Context& context);
-/// Adds part i to a network.
-void add_part(Network::Builder& builder, const Parts& parts, std::size_t i);
+/// Adds part i to a network, as one of this feature.
+void add_part(Network::Builder& builder, const Parts& parts, std::size_t i, std::int64_t feature);
 
 }  // namespace krepl::input

@@ -44,7 +44,7 @@ class FeatureWriter {
       if (!row) return row.error();
       if (!row->has_value()) return std::monostate{};
       if (Status added = add(**row); !added) return added;
-      if (!style.curves) report_.deviation = std::max(report_.deviation.value_or(0), (*row)->deviation);
+      if (!style.curves || (*row)->deviation > 0) report_.deviation = std::max(report_.deviation.value_or(0), (*row)->deviation);
     }
   }
 
@@ -131,7 +131,7 @@ class FeatureWriter {
 };
 
 /// WKT: a geometry a line; WKB: one after the other. Neither holds attributes.
-Status write_plain(const std::string& path, bool binary, const NextRow& next) {
+Status write_plain(const std::string& path, bool binary, const NextRow& next, ZoneFileReport& report) {
   Result<OutputStream> stream = OutputStream::open(path);
   if (!stream) return stream.error();
   GeometryStyle style;
@@ -146,6 +146,7 @@ Status write_plain(const std::string& path, bool binary, const NextRow& next) {
     auto row = next(style);
     if (!row) return row.error();
     if (!row->has_value()) break;
+    if ((*row)->deviation > 0) report.deviation = std::max(report.deviation.value_or(0), (*row)->deviation);
     const OGRGeometry* geometry = (*row)->geometry.get();
     if (binary) {
       bytes.resize(geometry->WkbSize());
@@ -172,7 +173,7 @@ Result<ZoneFileReport> write_features(const std::string& path, const ZoneFormat&
   ZoneFileReport report;
   Status written = std::monostate{};
   if (format.kind == ZoneFormat::Kind::wkt || format.kind == ZoneFormat::Kind::wkb) {
-    written = write_plain(path, format.kind == ZoneFormat::Kind::wkb, next);
+    written = write_plain(path, format.kind == ZoneFormat::Kind::wkb, next, report);
   } else {
     const std::string driver = format.kind == ZoneFormat::Kind::geojson ? "GeoJSON" : format.driver;
     written = write_dataset(path, driver, crs, report.notes, [&](OgrDataset& dataset) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <map>
 
 #include "kernel/box_tree.hpp"
 
@@ -86,6 +86,28 @@ void shift(OwnerZone::Ring& ring, Point by) {
 }
 
 }  // namespace
+
+std::vector<OwnerZone::Ring> split_at_pinches(std::vector<OwnerZone::Curve> curves) {
+  std::vector<OwnerZone::Ring> rings;
+  std::vector<Curve> open;
+  std::map<std::pair<double, double>, std::size_t> begun;  // where a curve of the open chain starts, and which
+  for (Curve& curve : curves) {
+    const Point p = curve.points.front();
+    const auto [at, is_new] = begun.emplace(std::pair(p.x, p.y), open.size());
+    if (!is_new) {
+      OwnerZone::Ring& ring = rings.emplace_back();
+      for (std::size_t k = at->second; k < open.size(); ++k) {
+        const Point q = open[k].points.front();
+        if (k > at->second) begun.erase({q.x, q.y});
+        ring.curves.push_back(std::move(open[k]));
+      }
+      open.resize(at->second);
+    }
+    open.push_back(std::move(curve));
+  }
+  if (!open.empty()) rings.push_back({std::move(open), 0, 0});
+  return rings;
+}
 
 void measure(OwnerZone::Ring& ring, double radius) {
   double twice = 0;

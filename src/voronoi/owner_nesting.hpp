@@ -7,6 +7,10 @@
 
 namespace krepl::voronoi {
 
+/// Cuts a closed chain of curves where it comes back to a place it has been at, so that rings touch themselves nowhere:
+/// what is one ring that pinches itself off becomes an outer ring and holes that touch it.
+std::vector<OwnerZone::Ring> split_at_pinches(std::vector<OwnerZone::Curve> curves);
+
 /// Area and length of a ring; arcs have this radius.
 void measure(OwnerZone::Ring& ring, double radius);
 

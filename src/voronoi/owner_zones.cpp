@@ -188,7 +188,7 @@ Result<std::vector<OwnerZone>> owner_zones(const Network& network, const Diagram
   const Drawing drawing(network, d, in, lobes, walk, request.max_error);
   const std::size_t count = tour->begin.size() - 1;
   struct Drawn {
-    OwnerZone::Ring ring;
+    std::vector<OwnerZone::Ring> rings;
     double deviation = 0;
   };
   std::vector<Drawn> drawn(count);
@@ -196,14 +196,15 @@ Result<std::vector<OwnerZone>> owner_zones(const Network& network, const Diagram
   quiet.threads = context.threads, quiet.cancel = context.cancel;
   kernel::parallel_blocks(quiet, count, 16, [&](std::size_t from, std::size_t to) {
     for (std::size_t r = from; r < to; ++r) {
-      auto& curves = drawn[r].ring.curves;
+      std::vector<OwnerZone::Curve> curves;
       for (Index k = tour->begin[r]; k < tour->begin[r + 1]; ++k) {
         curves.push_back(drawing.curve(tour->steps[k], drawn[r].deviation));
         const auto& points = curves.back().points;
         const bool nothing = points.size() == 2 && points[0] == points[1];
         if (nothing && curves.back().kind != OwnerZone::Kind::arc) curves.pop_back();
       }
-      measure(drawn[r].ring, in.nominal_radius());
+      drawn[r].rings = split_at_pinches(std::move(curves));
+      for (OwnerZone::Ring& ring : drawn[r].rings) measure(ring, in.nominal_radius());
     }
   });
   if (context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
@@ -211,14 +212,15 @@ Result<std::vector<OwnerZone>> owner_zones(const Network& network, const Diagram
   std::map<Index, OwnerZone> zones;
   std::map<Index, std::vector<OwnerZone::Ring>> rings;
   for (std::size_t r = 0; r < count; ++r) {
-    OwnerZone::Ring& ring = drawn[r].ring;
-    if (ring.curves.empty() || std::abs(ring.area) <= request.resolution * ring.length) continue;
     const Index owner = lobes.owner(walk.lobe(tour->steps[tour->begin[r]]));
-    OwnerZone& zone = zones[owner];
-    zone.owner = owner;
-    zone.area += ring.area, zone.perimeter += ring.length;
-    zone.deviation = std::max(zone.deviation, drawn[r].deviation);
-    rings[owner].push_back(std::move(ring));
+    for (OwnerZone::Ring& ring : drawn[r].rings) {
+      if (ring.curves.empty() || std::abs(ring.area) <= request.resolution * ring.length) continue;
+      OwnerZone& zone = zones[owner];
+      zone.owner = owner;
+      zone.area += ring.area, zone.perimeter += ring.length;
+      zone.deviation = std::max(zone.deviation, drawn[r].deviation);
+      rings[owner].push_back(std::move(ring));
+    }
   }
   std::vector<OwnerZone> all;
   for (auto& [owner, zone] : zones) {

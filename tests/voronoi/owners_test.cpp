@@ -48,7 +48,7 @@ class Share {
       const double u = c.points[1].x - c.center.x, v = c.points[1].y - c.center.y;
       double angle = std::atan2(x * v - y * u, x * u + y * v);
       if (angle <= 0 || c.points[0] == c.points[1]) angle += 2 * pi;
-      const int steps = 1 + int(std::abs(angle) * 400);
+      const int steps = 1 + int(std::abs(angle) * 60);
       for (int i = 0; i < steps; ++i) {
         const double a = angle * i / steps;
         points.push_back({c.center.x + x * std::cos(a) - y * std::sin(a), c.center.y + x * std::sin(a) + y * std::cos(a)});
@@ -120,7 +120,7 @@ std::optional<std::string> fault_in_shares(const ZoneCase& c, const Shared& s, i
   for (const auto& [o, obstacle] : obstacles) box.add(obstacle.box());
   box = box.grown(c.radius);
   const double size = double(std::max(box.x1 - box.x0, box.y1 - box.y0));
-  const double tolerance = 2e-5 * c.radius + 1e-9 * size + 64 * step;
+  const double tolerance = 1e-4 * c.radius + 1e-9 * size + 64 * step;
   std::uniform_real_distribution<double> x{double(box.x0), double(box.x1)}, y{double(box.y0), double(box.y1)};
   for (int i = 0; i < samples; ++i) {
     const Point p{x(random), y(random)};
