@@ -25,7 +25,8 @@ struct MillTool {
 /// The path never cuts into the part (grown by the allowance): it stays above the sum of the part and the ball, and comes
 /// nowhere farther above it than the tolerance, measured normal to it. Between the places where heights are computed that is
 /// proven by bounds, not sampled. Ends of moves and centres of arcs are multiples of `unit`, as a post will write them, so that
-/// nothing is rounded afterwards; this takes 4.5 units and an eighth of the tolerance.
+/// nothing is rounded afterwards; this takes 5.5 units and an eighth of the tolerance, up to a quarter more for passes that are not
+/// along x or y.
 struct MillAccuracy {
   double tolerance = 0.01;  ///< at least 16 units
   double unit = 1e-4;       ///< last decimal of the numbers; at least 2^-34 S, S the largest of extent and radius
@@ -53,7 +54,7 @@ struct ParallelOptions {
   double step_over = 0;
   /// Greatest height of what is left between passes on ground that is level across them, tolerance included.
   double scallop = 0;
-  double angle = 0;      ///< of the passes, degrees counter-clockwise from +x. Turned by up to 0.005 degrees to meet the lattice
+  double angle = 0;      ///< of the passes, degrees counter-clockwise from +x; turned a little (report) to meet places of few decimals
   bool zigzag = true;    ///< else all passes run one way
   /// The tip never goes below it. Nothing given: the part's lowest place; then passes are cut only where the ball touches the part.
   std::optional<double> bottom;

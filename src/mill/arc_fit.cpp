@@ -62,6 +62,8 @@ bool CurveFit::arc_holds(LatticePoint p, const FittedMove& arc, std::size_t next
   const double least = std::min(r0, r1), most = std::max(r0, r1);
   if (most - least > 1.5 * unit || least <= 8 * unit) return false;
   const bool over = arc.kind == FittedMove::Kind::over;
+  // An arc that turns back would pass over places that are not looked at.
+  if (over ? std::min(from.z, to.z) < centre.z : std::max(from.z, to.z) > centre.z) return false;
   const auto on_curve = [&](double at, std::size_t hint) { return CurvePoint{at, highest(at, at, hint)}; };
   CurvePoint before_it = on_curve(from.t, next);
   for (std::size_t v = next; v <= last; ++v) {

@@ -33,12 +33,18 @@ double CurveFit::highest(double low, double high, std::size_t hint) const {
 }
 
 /// The farthest line: of all directions from p, those above the points of the curve passed so far and within the band of
-/// them.
-std::optional<FittedMove> CurveFit::line_from(LatticePoint p, std::size_t next) const {
+/// them. Points from `open` on that p has passed already, at the foot of a wall, must be within the band, too.
+std::optional<FittedMove> CurveFit::line_from(LatticePoint p, std::size_t open, std::size_t next) const {
   const double pt = t(p.i), pz = z(p.k);
   double low = -right_angle, high = right_angle;
   std::size_t last = next;
   bool any = false;
+  for (std::size_t v = open; v < next; ++v) {
+    const double dt = curve_[v].t - pt, dz = curve_[v].z - pz, distance = std::hypot(dt, dz);
+    if (dz < 0 && distance > options_.band)
+      high = std::min(high, std::atan2(dz, dt) + std::asin(options_.band / distance));
+  }
+  if (high <= low) return std::nullopt;
   for (std::size_t v = next; v < curve_.size(); ++v) {
     const double dt = curve_[v].t - pt, dz = curve_[v].z - pz, distance = std::hypot(dt, dz);
     const double angle = std::atan2(dz, dt);
@@ -56,8 +62,13 @@ std::optional<FittedMove> CurveFit::line_from(LatticePoint p, std::size_t next) 
   const double dt = t(i) - pt, at = highest(t(i), t(i), last);
   const double least = pz + std::tan(low) * dt;
   const double most = high < right_angle ? pz + std::tan(high) * dt : std::numeric_limits<double>::infinity();
-  double wanted = at + options_.band / 2 / std::max(std::cos(middle), 0x1p-10);
-  wanted = std::max(std::min(wanted, most - options_.unit), std::max(least, at));
+  // The middle of the band; on a steep line, where that is far up, the middle of the directions.
+  double wanted = pz + std::tan(middle) * dt;
+  if (std::cos(middle) > 0.25) wanted = std::min(at + options_.band / 2 / std::cos(middle), most - options_.unit);
+  wanted = std::max({wanted, least, at});
+  // On another line than the middle one the end may be beyond the foot of the last point.
+  const bool beyond = (curve_[last].t - t(i)) * dt + (curve_[last].z - wanted) * (wanted - pz) < 0;
+  if (beyond) wanted = std::max({pz + std::tan(middle) * dt, least, at});
   return FittedMove{FittedMove::Kind::line, {i, above(wanted)}, {}};
 }
 
@@ -68,6 +79,8 @@ void CurveFit::step_aside(LatticePoint& p, std::size_t next, std::vector<FittedM
     if (!(q == p)) moves.push_back({FittedMove::Kind::line, q, {}});
     p = q;
   };
+  const std::int64_t foot = above(highest(t(p.i), t(p.i), hint));
+  if (z(p.k) - z(foot) > options_.band) return go({p.i, foot});
   const std::int64_t top = std::max(p.k, above(highest(t(p.i), t(p.i + 1), hint)));
   go({p.i, top});
   go({p.i + 1, top});
@@ -80,20 +93,28 @@ LatticePoint CurveFit::run(std::vector<FittedMove>& moves) {
   const std::int64_t end = std::int64_t(std::llround(curve_.back().t / options_.step));
   LatticePoint p{first, above(highest(t(first), t(first), 0) + options_.band / 2)};
   const LatticePoint start = p;
-  std::size_t next = 0;  // first vertex beyond p
+  std::size_t next = 0, open = 0;  // first vertex beyond p, and beyond p along the last move
+  double along_t = 1, along_z = 0;
   while (p.i < end) {
     while (next < curve_.size() && curve_[next].t <= t(p.i)) ++next;
     if (next == curve_.size()) break;
-    std::optional<FittedMove> move = line_from(p, next);
-    if (options_.most_radius > 0) {
+    const auto is_passed = [&](CurvePoint v) {
+      const double dt = v.t - t(p.i), dz = v.z - z(p.k);
+      return dt * along_t + dz * along_z <= 0 || std::hypot(dt, dz) <= options_.band;
+    };
+    while (open < next && is_passed(curve_[open])) ++open;
+    std::optional<FittedMove> move = line_from(p, open, next);
+    if (options_.most_radius > 0 && open == next) {
       if (const auto arc = arc_from(p, next, move ? move->end.i : p.i)) move = arc;
     }
-    if (!move) {
+    const LatticePoint before_it = p;
+    if (move) {
+      moves.push_back(*move);
+      p = move->end;
+    } else {
       step_aside(p, next, moves);
-      continue;
     }
-    moves.push_back(*move);
-    p = move->end;
+    along_t = t(p.i) - t(before_it.i), along_z = z(p.k) - z(before_it.k);
   }
   return start;
 }

@@ -40,9 +40,6 @@ class CurveFit {
   LatticePoint run(std::vector<FittedMove>& moves);
 
  private:
-  struct Reach {
-    FittedMove move;
-  };
   double t(std::int64_t i) const { return double(i) * options_.step; }
   double z(std::int64_t k) const { return options_.z0 + double(k) * options_.unit; }
   std::int64_t above(double z) const;
@@ -51,7 +48,7 @@ class CurveFit {
   /// The curve's highest point over [low, high]; `hint`: a vertex at or before low.
   double highest(double low, double high, std::size_t hint) const;
 
-  std::optional<FittedMove> line_from(LatticePoint p, std::size_t next) const;
+  std::optional<FittedMove> line_from(LatticePoint p, std::size_t open, std::size_t next) const;
   std::optional<FittedMove> arc_from(LatticePoint p, std::size_t next, std::int64_t at_least) const;
   std::optional<FittedMove> arc_to(LatticePoint p, std::size_t next, std::size_t last) const;
   bool arc_holds(LatticePoint p, const FittedMove& arc, std::size_t next, std::size_t last) const;

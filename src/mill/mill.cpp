@@ -189,12 +189,14 @@ void measure(const ToolPath& path, const MillMotion& motion, MillReport& report)
 }  // namespace mill
 
 Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const ParallelOptions& o, const Context& context) {
-  const Result<Plan> made = make_plan(*part, o);
+  Result<Plan> made = make_plan(*part, o);
   if (!made) return made.error();
-  const Plan& plan = *made;
+  Plan& plan = *made;
   const Result<DropCutter> cutter = DropCutter::build(part, plan.radius, context);
   if (!cutter) return cutter.error();
-  const mill::PassLayout layout = mill::lay_passes(*part, o.accuracy.unit, o.angle, plan.step_over, plan.radius);
+  const mill::PassLayout layout =
+      mill::lay_passes(*part, o.accuracy.unit, o.angle, plan.step_over, plan.radius, o.accuracy.tolerance);
+  plan.band -= layout.step;
   std::vector<PassResult> results(layout.passes.size());
   kernel::Progress progress(context, results.size());
   const bool done = kernel::parallel_blocks(context, results.size(), 1, [&](std::size_t k, std::size_t) {

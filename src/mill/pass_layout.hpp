@@ -35,7 +35,9 @@ struct PassLayout {
   double angle() const;
 };
 
-/// Passes over a part's bounding rectangle and `margin` beyond.
-PassLayout lay_passes(const Terrain& part, double unit, double degrees, double step_over, double margin);
+/// Passes over a part's bounding rectangle and `margin` beyond. Next to walls a path is up to a step off: it is at most a quarter of
+/// the tolerance.
+PassLayout lay_passes(const Terrain& part, double unit, double degrees, double step_over, double margin,
+                      double tolerance);
 
 }  // namespace krepl::mill
