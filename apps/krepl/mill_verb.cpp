@@ -139,6 +139,9 @@ Result<MillPlan> make_plan(const MillVerbOptions& o) {
 void tell(const MillReport& r, std::size_t lines, const MillVerbOptions& o, const Stopwatch& total, Session& session) {
   session.detail(fmt::format("curves     {} points above them, {} bodies looked at", r.curve_points, r.touches));
   session.detail(fmt::format("passes     {}, {:.6g} apart, at {:.6g} degrees", r.passes, r.step_over, r.angle));
+  if (r.sections > 0)
+    session.detail(fmt::format("scallops   {} sections looked at, {} pieces of passes added, {} sections where more is left", r.sections,
+                               r.extra_passes, r.uneven_sections));
   session.summary(fmt::format("{} cuts: {} lines, {} arcs, {} rapid moves; {:.6g} {} cut, {:.6g} {} rapid, about {:.1f} min; {} lines of "
                               "G-code; {:.3f} s",
                               r.cuts, r.lines, r.arcs, r.rapids, r.cutting_length, o.unit, r.rapid_length, o.unit, r.minutes,
@@ -169,7 +172,7 @@ void add_path_options(CLI::App& verb, MillVerbOptions& o) {
   verb.add_option("--tool", o.tool, "Cutter: ball:DIAMETER")->required()->type_name("KIND:SIZE");
   verb.add_option("--strategy", o.strategy, "parallel (default): passes in vertical planes")->type_name("NAME");
   verb.add_option("--step-over", o.step_over, "Distance of passes")->type_name("LENGTH");
-  verb.add_option("--scallop", o.scallop, "Instead of it: greatest height of what is left between passes on level ground")->type_name("LENGTH");
+  verb.add_option("--scallop", o.scallop, "Instead of it: greatest height of what is left between passes")->type_name("LENGTH");
   verb.add_option("--angle", o.angle, "Direction of passes, degrees from the x axis (default: 0)")->type_name("DEGREES");
   verb.add_option("--direction", o.direction, "zigzag (default) or one-way")->type_name("NAME");
   verb.add_option("--tolerance", o.tolerance, "Greatest distance of the path above the exact one; it is never below (default: 0.01 mm, 0.0004 in)")

@@ -52,7 +52,9 @@ struct ParallelOptions {
   MillMotion motion;
   /// Distance of neighbouring passes in the plane, or, if 0, from `scallop`.
   double step_over = 0;
-  /// Greatest height of what is left between passes on ground that is level across them, tolerance included.
+  /// Greatest height of what is left between passes, tolerance included. Where the surface is steep across the passes or hollow,
+  /// gaps are halved, up to four times, until it holds in cross-sections half a pass distance apart; what then remains (next to
+  /// walls and in sharp valleys along the passes) is counted in the report.
   double scallop = 0;
   double angle = 0;      ///< of the passes, degrees counter-clockwise from +x; turned a little (report) to meet places of few decimals
   bool zigzag = true;    ///< else all passes run one way
@@ -68,6 +70,9 @@ struct MillReport {
   std::size_t curve_points = 0;     ///< of the polylines above the drive curves that moves were fitted to
   std::uint64_t touches = 0;        ///< evaluations of a triangle's sum with the ball
   double step_over = 0;             ///< used
+  std::size_t extra_passes = 0;     ///< parts of passes between others, for the sake of the scallop
+  std::size_t sections = 0;         ///< across the passes, looked at for that
+  std::size_t uneven_sections = 0;  ///< of them, where the scallop is exceeded
   double angle = 0;                 ///< used, degrees
 };
 

@@ -11,6 +11,7 @@
 #include "mill/curve_fit.hpp"
 #include "mill/links.hpp"
 #include "mill/pass_layout.hpp"
+#include "mill/scallops.hpp"
 #include "model/radius_check.hpp"
 
 namespace krepl {
@@ -23,6 +24,8 @@ using mill::FittedMove;
 using mill::LatticePoint;
 
 Error usage(const std::string& what, const std::string& remedy) { return {ErrorCode::usage, what, "", remedy}; }
+
+constexpr double gentle = 0.9;  // the cosine of 26 degrees
 
 bool is_positive(double x) { return std::isfinite(x) && x > 0; }
 
@@ -59,11 +62,12 @@ Status check(const ParallelOptions& o) {
   return std::monostate{};
 }
 
-/// [scallop]: two balls of radius R at distance w leave a ridge of R - sqrt(R^2 - w^2 / 4).
+/// Two balls of radius R at distance w leave a ridge of R - sqrt(R^2 - w^2 / 4) on a plane along the passes. Somewhat less, so that
+/// gentle slopes across them need no further passes.
 double step_over_of(const ParallelOptions& o) {
   if (o.step_over != 0) return o.step_over;
   const double height = o.scallop - o.accuracy.tolerance, radius = o.tool.radius + o.tool.allowance;
-  return 2 * std::sqrt(2 * radius * height - height * height);
+  return gentle * 2 * std::sqrt(2 * radius * height - height * height);
 }
 
 Result<Plan> make_plan(const Terrain& part, const ParallelOptions& o) {
@@ -153,15 +157,52 @@ PassResult make_pass(const DropCutter& cutter, const mill::PassLayout& layout, s
   mill::FitOptions fit{layout.step, o.accuracy.unit, plan.z0, plan.band, o.accuracy.arc_error, 0};
   if (o.accuracy.arcs && layout.is_along_axis()) fit.most_radius = 64 * (cutter.radius() + cutter.terrain().extent());
   const PassMoves in_space(layout, plan, o);
-  const bool backwards = o.zigzag && k % 2 == 1;
   for (const CurveRun& run : runs) {
     std::vector<FittedMove> moves;
     const LatticePoint start = CurveFit(run, fit).run(moves);
-    result.cuts.push_back(in_space.cut(pass, start, moves, backwards));
+    result.cuts.push_back(in_space.cut(pass, start, moves, pass.backwards));
     result.points += run.size();
   }
-  if (backwards) std::reverse(result.cuts.begin(), result.cuts.end());
+  if (pass.backwards) std::reverse(result.cuts.begin(), result.cuts.end());
   return result;
+}
+
+/// Adds passes where the scallop asked for would be exceeded between those laid out.
+bool refine_passes(const DropCutter& cutter, mill::PassLayout& layout, const Plan& plan, const ParallelOptions& o, MillReport& report,
+                   const Context& context) {
+  if (layout.passes.size() < 2) return true;
+  std::vector<mill::ExtraPasses> extra(layout.passes.size() - 1);
+  mill::ScallopOptions scallops;
+  scallops.radius = cutter.radius(), scallops.height = o.scallop - o.accuracy.tolerance, scallops.every = plan.step_over / 2;
+  Context quiet;
+  quiet.threads = context.threads, quiet.cancel = context.cancel;
+  const bool done = kernel::parallel_blocks(quiet, extra.size(), 1, [&](std::size_t k, std::size_t) {
+    mill::BallBodies bodies(cutter);
+    const double accuracy = std::max(plan.accuracy, scallops.height / 16);
+    mill::DriveCurve curve(bodies, {plan.floor, accuracy, o.accuracy.unit / 64, layout.step});
+    extra[k] = mill::find_extra_passes(curve, layout, layout.passes[k], layout.passes[k + 1], scallops);
+  });
+  std::vector<mill::PassLayout::Pass> passes;
+  bool backwards = false;
+  for (std::size_t k = 0; k < layout.passes.size(); ++k) {
+    layout.passes[k].backwards = o.zigzag && backwards;
+    passes.push_back(layout.passes[k]);
+    backwards = !backwards;
+    if (k == extra.size()) break;
+    report.extra_passes += extra[k].passes.size(), report.sections += extra[k].sections, report.uneven_sections += extra[k].remaining;
+    if (extra[k].passes.empty()) continue;
+    // The pieces of a gap on the way back, whatever line they are on.
+    std::stable_sort(extra[k].passes.begin(), extra[k].passes.end(), [backwards](const auto& a, const auto& b) {
+      return backwards ? a.last > b.last : a.first < b.first;
+    });
+    for (mill::PassLayout::Pass& pass : extra[k].passes) {
+      pass.backwards = o.zigzag && backwards;
+      passes.push_back(pass);
+    }
+    backwards = !backwards;
+  }
+  layout.passes = std::move(passes);
+  return done;
 }
 
 }  // namespace
@@ -194,9 +235,13 @@ Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const Para
   Plan& plan = *made;
   const Result<DropCutter> cutter = DropCutter::build(part, plan.radius, context);
   if (!cutter) return cutter.error();
-  const mill::PassLayout layout =
+  mill::PassLayout layout =
       mill::lay_passes(*part, o.accuracy.unit, o.angle, plan.step_over, plan.radius, o.accuracy.tolerance);
   plan.band -= layout.step;
+  for (std::size_t k = 1; k < layout.passes.size(); k += 2) layout.passes[k].backwards = o.zigzag;
+  MilledPath milled;
+  if (o.scallop != 0 && !refine_passes(*cutter, layout, plan, o, milled.report, context))
+    return Error{ErrorCode::cancelled, "cancelled", "", ""};
   std::vector<PassResult> results(layout.passes.size());
   kernel::Progress progress(context, results.size());
   const bool done = kernel::parallel_blocks(context, results.size(), 1, [&](std::size_t k, std::size_t) {
@@ -204,7 +249,6 @@ Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const Para
     progress.add(1);
   });
   if (!done) return Error{ErrorCode::cancelled, "cancelled", "", ""};
-  MilledPath milled;
   std::vector<Cut> cuts;
   for (PassResult& r : results) {
     milled.report.curve_points += r.points, milled.report.touches += r.touches;

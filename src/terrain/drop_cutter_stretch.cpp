@@ -64,7 +64,15 @@ bool StretchSearch::list(Point from, Point to, double floor, std::vector<Part>& 
     const DropCutter::Contact contact = hierarchy.touch(tree, centre, radius, trace);
     last_place_ = trace.place, last_ = trace.contact, last_triangle_ = trace.triangle;
     touches_ = contact.touches();
-    const LowerBound bound = below(contact, centre, half_x, half_y, radius, floor);
+    LowerBound bound = below(contact, centre, half_x, half_y, radius, floor);
+    if (bound.slope_x == 0 && bound.slope_y == 0) {
+      // On its way over the rim of a wall a ball tells nothing: one of the ends may lie on the ground beside it.
+      for (const Point end : {from, to}) {
+        DropCutterAccess::Trace beside = trace;
+        const LowerBound other = below(hierarchy.touch(tree, end, radius, beside), centre, half_x, half_y, radius, floor);
+        if (other.height > bound.height) bound = other;
+      }
+    }
     const double unit = tree.inverse_unit();
     Survey survey = tree.survey(centre, radius,
                                 {up(half_x * unit), up(half_y * unit), float(bound.slope_x), float(bound.slope_y)});
