@@ -2,7 +2,7 @@
 
 _krepl() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  local verbs="buffer axis rivers offset profile terrain height info verify view lab" verb= word
+  local verbs="buffer axis rivers offset profile terrain height mill info verify view lab" verb= word
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case " $verbs " in *" $word "*) verb=$word; break ;; esac
   done
@@ -22,6 +22,11 @@ _krepl() {
       mapfile -t COMPREPLY < <(compgen -W "$engines" -- "$current"); return ;;
     --zones) mapfile -t COMPREPLY < <(compgen -W "sub-river stem whole" -- "$current"); return ;;
     --outlet) mapfile -t COMPREPLY < <(compgen -W "guess" -- "$current"); return ;;
+    --strategy) mapfile -t COMPREPLY < <(compgen -W "parallel" -- "$current"); return ;;
+    --direction) mapfile -t COMPREPLY < <(compgen -W "zigzag one-way" -- "$current"); return ;;
+    --post) mapfile -t COMPREPLY < <(compgen -W "linuxcnc grbl" -- "$current"); return ;;
+    --control-point) mapfile -t COMPREPLY < <(compgen -W "tip centre" -- "$current"); return ;;
+    --tool) mapfile -t COMPREPLY < <(compgen -W "ball:" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "mm cm m km in ft" -- "$current"); return ;;
     --split) mapfile -t COMPREPLY < <(compgen -W "rising falling shorter" -- "$current"); return ;;
     --to-crs) mapfile -t COMPREPLY < <(compgen -W "auto EPSG:" -- "$current"); return ;;
@@ -33,7 +38,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit) return ;;
+    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit | --step-over | --scallop | --angle | --tolerance | --allowance | --bottom | --feed | --plunge-feed | --spindle | --safe-height | --clearance | --decimals | --tool-number) return ;;
   esac
   local command=("$verb")
   if [[ $verb == lab ]]; then

@@ -19,8 +19,10 @@ namespace {
 
 struct MillVerbOptions {
   TerrainOptions terrain;
-  std::string output, tool, strategy = "parallel", direction = "zigzag", post = "linuxcnc", unit = "mm", control_point = "tip";
-  std::string step_over, scallop, tolerance, allowance, angle, bottom, safe_height, clearance, feed, plunge_feed, spindle;
+  std::string output, tool, strategy = "parallel", direction = "zigzag", post = "linuxcnc", unit = "mm",
+                            control_point = "tip";
+  std::string step_over, scallop, tolerance, allowance, angle, bottom, safe_height, clearance, feed, plunge_feed,
+      spindle;
   int decimals = -1, tool_number = 1;
   bool no_arcs = false;
 };
@@ -81,10 +83,15 @@ Status choose(const char* option, const std::string& text, std::initializer_list
 /// Decimals, and what follows from the unit of length and the controller.
 Status take_post(const MillVerbOptions& o, MillPlan& plan) {
   using output::GcodePost;
-  if (Status s = choose("--post", o.post, {{"linuxcnc", GcodePost::linuxcnc}, {"grbl", GcodePost::grbl}}, plan.gcode.post); !s) return s;
+  if (Status s =
+          choose("--post", o.post, {{"linuxcnc", GcodePost::linuxcnc}, {"grbl", GcodePost::grbl}}, plan.gcode.post);
+      !s)
+    return s;
   if (Status s = choose("--unit", o.unit, {{"mm", false}, {"in", true}}, plan.gcode.inches); !s) return s;
   MillAccuracy& a = plan.parallel.accuracy;
-  if (Status s = choose("--control-point", o.control_point, {{"tip", ControlPoint::tip}, {"centre", ControlPoint::centre}}, a.control_point); !s)
+  if (Status s = choose("--control-point", o.control_point,
+                        {{"tip", ControlPoint::tip}, {"centre", ControlPoint::centre}}, a.control_point);
+      !s)
     return s;
   plan.gcode.decimals = o.decimals >= 0 ? o.decimals : plan.gcode.inches ? 5 : 4;
   a.unit = std::pow(10.0, -plan.gcode.decimals);
@@ -112,21 +119,24 @@ Status take_motion(const MillVerbOptions& o, MillPlan& plan) {
 
 Result<MillPlan> make_plan(const MillVerbOptions& o) {
   MillPlan plan;
-  if (o.strategy != "parallel") return usage(fmt::format("strategy '{}' is unknown", o.strategy), "give --strategy parallel");
+  if (o.strategy != "parallel")
+    return usage(fmt::format("strategy '{}' is unknown", o.strategy), "give --strategy parallel");
   if (Status s = take_tool(o.tool, plan); !s) return s.error();
   if (Status s = take_post(o, plan); !s) return s.error();
   if (Status s = take_motion(o, plan); !s) return s.error();
   ParallelOptions& p = plan.parallel;
   if (Status s = take("--step-over", o.step_over, p.step_over); !s) return s.error();
   if (Status s = take("--scallop", o.scallop, p.scallop); !s) return s.error();
-  if (p.step_over == 0 && p.scallop == 0) return usage("neither --step-over nor --scallop is given", "give one of them");
+  if (p.step_over == 0 && p.scallop == 0)
+    return usage("neither --step-over nor --scallop is given", "give one of them");
   if (p.step_over != 0 && p.scallop != 0) return usage("both --step-over and --scallop are given", "give one of them");
   if (Status s = take("--angle", o.angle, p.angle, false); !s) return s.error();
   if (Status s = take("--allowance", o.allowance, p.tool.allowance); !s) return s.error();
   double bottom = 0;
   if (Status s = take("--bottom", o.bottom, bottom, false); !s) return s.error();
   if (!o.bottom.empty()) p.bottom = bottom;
-  if (Status s = choose("--direction", o.direction, {{"zigzag", true}, {"one-way", false}}, p.zigzag); !s) return s.error();
+  if (Status s = choose("--direction", o.direction, {{"zigzag", true}, {"one-way", false}}, p.zigzag); !s)
+    return s.error();
   plan.gcode.tool_number = o.tool_number;
   plan.gcode.strategy = o.strategy;
   const Result<input::TerrainRequest> request = terrain_request(o.terrain);
@@ -140,13 +150,16 @@ void tell(const MillReport& r, std::size_t lines, const MillVerbOptions& o, cons
   session.detail(fmt::format("curves     {} points above them, {} bodies looked at", r.curve_points, r.touches));
   session.detail(fmt::format("passes     {}, {:.6g} apart, at {:.6g} degrees", r.passes, r.step_over, r.angle));
   if (r.sections > 0)
-    session.detail(fmt::format("scallops   {} sections looked at, {} pieces of passes added, {} sections where more is left", r.sections,
-                               r.extra_passes, r.uneven_sections));
-  session.summary(fmt::format("{} cuts: {} lines, {} arcs, {} rapid moves; {:.6g} {} cut, {:.6g} {} rapid, about {:.1f} min; {} lines of "
-                              "G-code; {:.3f} s",
-                              r.cuts, r.lines, r.arcs, r.rapids, r.cutting_length, o.unit, r.rapid_length, o.unit, r.minutes,
-                              lines, total.seconds()),
-                  o.output == "-");
+    session.detail(
+        fmt::format("scallops   {} sections looked at, {} pieces of passes added, {} sections where more is left",
+                    r.sections, r.extra_passes, r.uneven_sections));
+  session.summary(
+      fmt::format(
+          "{} cuts: {} lines, {} arcs, {} rapid moves; {:.6g} {} cut, {:.6g} {} rapid, about {:.1f} min; {} lines of "
+          "G-code; {:.3f} s",
+          r.cuts, r.lines, r.arcs, r.rapids, r.cutting_length, o.unit, r.rapid_length, o.unit, r.minutes, lines,
+          total.seconds()),
+      o.output == "-");
 }
 
 int run_mill(const MillVerbOptions& options, Session& session) {
@@ -160,9 +173,11 @@ int run_mill(const MillVerbOptions& options, Session& session) {
   tell_terrain(*file, options.terrain.name(), total.seconds(), session);
   const Stopwatch computing;
   const Result<MilledPath> milled = mill_parallel(file->terrain, plan->parallel, session.context("milling"));
-  if (!milled) return session.fail(milled.error().code == ErrorCode::usage ? "" : options.terrain.name(), milled.error());
+  if (!milled)
+    return session.fail(milled.error().code == ErrorCode::usage ? "" : options.terrain.name(), milled.error());
   session.detail(fmt::format("path       {:.3f} s", computing.seconds()));
-  const Result<std::size_t> lines = output::write_gcode(options.output, milled->path, plan->gcode, session.context("writing"));
+  const Result<std::size_t> lines =
+      output::write_gcode(options.output, milled->path, plan->gcode, session.context("writing"));
   if (!lines) return session.fail(output_name(options.output), lines.error());
   tell(milled->report, *lines, options, total, session);
   return 0;
@@ -172,13 +187,17 @@ void add_path_options(CLI::App& verb, MillVerbOptions& o) {
   verb.add_option("--tool", o.tool, "Cutter: ball:DIAMETER")->required()->type_name("KIND:SIZE");
   verb.add_option("--strategy", o.strategy, "parallel (default): passes in vertical planes")->type_name("NAME");
   verb.add_option("--step-over", o.step_over, "Distance of passes")->type_name("LENGTH");
-  verb.add_option("--scallop", o.scallop, "Instead of it: greatest height of what is left between passes")->type_name("LENGTH");
-  verb.add_option("--angle", o.angle, "Direction of passes, degrees from the x axis (default: 0)")->type_name("DEGREES");
+  verb.add_option("--scallop", o.scallop, "Instead of it: greatest height of what is left between passes")
+      ->type_name("LENGTH");
+  verb.add_option("--angle", o.angle, "Direction of passes, degrees from the x axis (default: 0)")
+      ->type_name("DEGREES");
   verb.add_option("--direction", o.direction, "zigzag (default) or one-way")->type_name("NAME");
-  verb.add_option("--tolerance", o.tolerance, "Greatest distance of the path above the exact one; it is never below (default: 0.01 mm, 0.0004 in)")
+  verb.add_option("--tolerance", o.tolerance,
+                  "Greatest distance of the path above the exact one; it is never below (default: 0.01 mm, 0.0004 in)")
       ->type_name("LENGTH");
   verb.add_option("--allowance", o.allowance, "Stock to leave (default: none)")->type_name("LENGTH");
-  verb.add_option("--bottom", o.bottom, "Lowest Z of the tip; passes go there beside the part (default: the part's lowest place)")
+  verb.add_option("--bottom", o.bottom,
+                  "Lowest Z of the tip; passes go there beside the part (default: the part's lowest place)")
       ->type_name("Z");
   verb.add_flag("--no-arcs", o.no_arcs, "Lines only");
 }
@@ -186,14 +205,20 @@ void add_path_options(CLI::App& verb, MillVerbOptions& o) {
 void add_post_options(CLI::App& verb, MillVerbOptions& o) {
   verb.add_option("--feed", o.feed, "Units a minute (default: 1000 mm, 40 in)")->type_name("F");
   verb.add_option("--plunge-feed", o.plunge_feed, "Downwards (default: a third of the feed)")->type_name("F");
-  verb.add_option("--spindle", o.spindle, "Revolutions a minute (default: the program leaves the spindle alone)")->type_name("S");
-  verb.add_option("--safe-height", o.safe_height, "Z at the start and at the end (default: a radius above everything)")->type_name("Z");
-  verb.add_option("--clearance", o.clearance, "Of rapid moves above the part (default: half the tool's radius)")->type_name("LENGTH");
+  verb.add_option("--spindle", o.spindle, "Revolutions a minute (default: the program leaves the spindle alone)")
+      ->type_name("S");
+  verb.add_option("--safe-height", o.safe_height, "Z at the start and at the end (default: a radius above everything)")
+      ->type_name("Z");
+  verb.add_option("--clearance", o.clearance, "Of rapid moves above the part (default: half the tool's radius)")
+      ->type_name("LENGTH");
   verb.add_option("--post", o.post, "Controller: linuxcnc (default) or grbl")->type_name("NAME");
-  verb.add_option("--unit", o.unit, "Unit of the part's coordinates and of the program: mm (default) or in")->type_name("UNIT");
+  verb.add_option("--unit", o.unit, "Unit of the part's coordinates and of the program: mm (default) or in")
+      ->type_name("UNIT");
   verb.add_option("--decimals", o.decimals, "Of coordinates (default: 4 for mm, 5 for inches)")
-      ->check(CLI::Range(0, output::most_decimals))->type_name("N");
-  verb.add_option("--control-point", o.control_point, "What Z is the height of: tip (default) or centre of the ball")->type_name("NAME");
+      ->check(CLI::Range(0, output::most_decimals))
+      ->type_name("N");
+  verb.add_option("--control-point", o.control_point, "What Z is the height of: tip (default) or centre of the ball")
+      ->type_name("NAME");
   verb.add_option("--tool-number", o.tool_number, "T word (default: 1)")->check(CLI::Range(1, 99999))->type_name("N");
 }
 

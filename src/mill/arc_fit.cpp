@@ -1,5 +1,5 @@
-// Arcs of a curve fit. Coordinates of an arc: x along the chord from its start to its end, y to the left of it; the arc's
-// centre is at (c / 2, -1 / bend) with c the chord's length, so that bend > 0 is an arc over a top.
+// Arcs of a curve fit. Coordinates of an arc: x along the chord from its start to its end, y to the left of it; the
+// arc's centre is at (c / 2, -1 / bend) with c the chord's length, so that bend > 0 is an arc over a top.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,9 +9,7 @@
 namespace krepl::mill {
 namespace {
 
-double squared_distance(CurvePoint p, CurvePoint c) {
-  return (p.t - c.t) * (p.t - c.t) + (p.z - c.z) * (p.z - c.z);
-}
+double squared_distance(CurvePoint p, CurvePoint c) { return (p.t - c.t) * (p.t - c.t) + (p.z - c.z) * (p.z - c.z); }
 
 /// Of a segment's points from c.
 double least_distance(CurvePoint p, CurvePoint q, CurvePoint c) {
@@ -22,8 +20,8 @@ double least_distance(CurvePoint p, CurvePoint q, CurvePoint c) {
 
 }  // namespace
 
-/// The lowest arc from p to the lattice point over the middle of the band at vertex `last` that is above all of the curve
-/// between; nothing if it leaves the band.
+/// The lowest arc from p to the lattice point over the middle of the band at vertex `last` that is above all of the
+/// curve between; nothing if it leaves the band.
 std::optional<FittedMove> CurveFit::arc_to(LatticePoint p, std::size_t next, std::size_t last) const {
   const std::int64_t i = before(curve_[last].t);
   if (i <= p.i + 4) return std::nullopt;
@@ -90,7 +88,8 @@ std::optional<FittedMove> CurveFit::arc_from(LatticePoint p, std::size_t next, s
   };
   // Short arcs may fail where longer ones do not: the first few are tried in any case.
   for (std::size_t length = 1; next + length < curve_.size(); length *= 2) {
-    if (attempt(next + length)) good = next + length;
+    if (attempt(next + length))
+      good = next + length;
     else if (length > 4) {
       bad = next + length;
       break;

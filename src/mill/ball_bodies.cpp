@@ -16,8 +16,8 @@ bool BallBodies::list(const Line& line, double from, double to, double floor, bo
   return true;
 }
 
-/// The plan of the sum is the triangle's plan (+) disk: the line runs in and out over the disk about a corner or the strip
-/// beside an edge.
+/// The plan of the sum is the triangle's plan (+) disk: the line runs in and out over the disk about a corner or the
+/// strip beside an edge.
 Interval BallBodies::domain(std::size_t body) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Interval all{infinity, -infinity};
@@ -102,7 +102,8 @@ Touch BallBodies::at(std::size_t body, double t) const {
 
 double BallBodies::top_of_narrow(std::size_t body, double width) const {
   const Part& p = parts_[body];
-  // The distance in the plane changes no faster than the place: it is R at both ends, so at least R - width / 2 between.
+  // The distance in the plane changes no faster than the place: it is R at both ends, so at least R - width / 2
+  // between.
   const double reach = std::max(0.0, radius_ - width / 2);
   return std::max({p.corner[0].z, p.corner[1].z, p.corner[2].z}) + std::sqrt(squared_ - reach * reach);
 }

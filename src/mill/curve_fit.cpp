@@ -32,8 +32,8 @@ double CurveFit::highest(double low, double high, std::size_t hint) const {
   return top;
 }
 
-/// The farthest line: of all directions from p, those above the points of the curve passed so far and within the band of
-/// them. Points from `open` on that p has passed already, at the foot of a wall, must be within the band, too.
+/// The farthest line: of all directions from p, those above the points of the curve passed so far and within the band
+/// of them. Points from `open` on that p has passed already, at the foot of a wall, must be within the band, too.
 std::optional<FittedMove> CurveFit::line_from(LatticePoint p, std::size_t open, std::size_t next) const {
   const double pt = t(p.i), pz = z(p.k);
   double low = -right_angle, high = right_angle;
@@ -49,7 +49,8 @@ std::optional<FittedMove> CurveFit::line_from(LatticePoint p, std::size_t open, 
     const double dt = curve_[v].t - pt, dz = curve_[v].z - pz, distance = std::hypot(dt, dz);
     const double angle = std::atan2(dz, dt);
     const double new_low = std::max(low, angle);
-    const double new_high = distance > options_.band ? std::min(high, angle + std::asin(options_.band / distance)) : high;
+    const double new_high =
+        distance > options_.band ? std::min(high, angle + std::asin(options_.band / distance)) : high;
     if (new_low > new_high) break;
     low = new_low, high = new_high, last = v, any = true;
   }

@@ -22,16 +22,17 @@ struct FittedMove {
 };
 
 struct FitOptions {
-  double step = 0;      ///< of t
-  double unit = 0;      ///< of z, and of the centres of arcs
-  double z0 = 0;        ///< a height of the lattice
-  double band = 0;      ///< how far above the curve the moves may be, measured normal to them; many units
-  double arc_lift = 0;  ///< how far arcs over a top stay above the curve, for controllers that cut chords instead
+  double step = 0;         ///< of t
+  double unit = 0;         ///< of z, and of the centres of arcs
+  double z0 = 0;           ///< a height of the lattice
+  double band = 0;         ///< how far above the curve the moves may be, measured normal to them; many units
+  double arc_lift = 0;     ///< how far arcs over a top stay above the curve, for controllers that cut chords instead
   double most_radius = 0;  ///< of arcs; 0: no arcs
 };
 
-/// Lines and arcs between points of a lattice that are nowhere below a run of a drive curve (except for arcs, of which centres
-/// on the lattice take a unit) and nowhere farther above it than the band. Greedy: each move goes as far as it can.
+/// Lines and arcs between points of a lattice that are nowhere below a run of a drive curve (except for arcs, of which
+/// centres on the lattice take a unit) and nowhere farther above it than the band. Greedy: each move goes as far as it
+/// can.
 class CurveFit {
  public:
   CurveFit(std::span<const CurvePoint> curve, const FitOptions& options) : curve_(curve), options_(options) {}

@@ -35,12 +35,12 @@ struct DriveCurve::Ends {
 Touch DriveCurve::touch(std::size_t body, double t) {
   const Interval& domain = domains_[body];
   const double margin = 2 * options_.smallest;
-  if (domain.high - domain.low <= 4 * margin)
-    return {bodies_.top_of_narrow(body, domain.high - domain.low), 0};
+  if (domain.high - domain.low <= 4 * margin) return {bodies_.top_of_narrow(body, domain.high - domain.low), 0};
   ++touches_;
   const double inner = std::clamp(t, domain.low + margin, domain.high - margin);
   Touch touch = bodies_.at(body, inner);
-  if (touch.height == lowest) return {bodies_.top_of_narrow(body, 2 * margin), 0};  // only rounding could bring that about
+  if (touch.height == lowest)
+    return {bodies_.top_of_narrow(body, 2 * margin), 0};  // only rounding could bring that about
   touch.height += touch.slope * (t - inner);
   return touch;
 }

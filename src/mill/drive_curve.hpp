@@ -12,15 +12,16 @@ struct CurvePoint {
   double t, z;
 };
 
-/// A polyline in the vertical plane of a line, t never descending, with vertical segments where the cutter drops down or climbs
-/// up a wall. No body rises above it anywhere, and no point of it is farther than a given distance above the bodies.
+/// A polyline in the vertical plane of a line, t never descending, with vertical segments where the cutter drops down
+/// or climbs up a wall. No body rises above it anywhere, and no point of it is farther than a given distance above the
+/// bodies.
 using CurveRun = std::vector<CurvePoint>;
 
 struct DriveCurveOptions {
-  double floor = 0;       ///< the control point never goes below
-  double accuracy = 0;    ///< largest distance between the polyline and the highest body, measured normal to it
-  double smallest = 0;    ///< stretches below that count as vertical; far less than the accuracy
-  double grain = 0;       ///< runs start and end at multiples of it
+  double floor = 0;     ///< the control point never goes below
+  double accuracy = 0;  ///< largest distance between the polyline and the highest body, measured normal to it
+  double smallest = 0;  ///< stretches below that count as vertical; far less than the accuracy
+  double grain = 0;     ///< runs start and end at multiples of it
 };
 
 /// The drive curve of passes: what the control point must stay above along a line. One for each thread.
@@ -37,8 +38,8 @@ class DriveCurve {
   std::uint64_t touches() const { return touches_; }
 
  private:
-  /// A body over the part [low, high] of an interval that it reaches over: its heights at both ends, and the point where the
-  /// tangents there meet.
+  /// A body over the part [low, high] of an interval that it reaches over: its heights at both ends, and the point
+  /// where the tangents there meet.
   struct Candidate {
     std::size_t body;
     double low, high;

@@ -21,17 +21,18 @@ struct Interval {
   double low, high;
 };
 
-/// What a cutter's control point must stay above along a line: the highest of bodies, each of which has a height that is a
-/// concave function over one interval of the line. Sums of a convex cutter and a triangle are such bodies. Between places
-/// where it is known, a concave function lies above its chords and below its tangents; that is all that drive curves need.
+/// What a cutter's control point must stay above along a line: the highest of bodies, each of which has a height that
+/// is a concave function over one interval of the line. Sums of a convex cutter and a triangle are such bodies. Between
+/// places where it is known, a concave function lies above its chords and below its tangents; that is all that drive
+/// curves need.
 ///
 /// This is where other cutters than balls come in. Not for use by several threads.
 class LineBodies {
  public:
   virtual ~LineBodies() = default;
 
-  /// Lists the bodies that may be highest somewhere between t = from and t = to and higher than `floor`. False if they are
-  /// too many: a shorter stretch should be asked for. With `all` it never fails.
+  /// Lists the bodies that may be highest somewhere between t = from and t = to and higher than `floor`. False if they
+  /// are too many: a shorter stretch should be asked for. With `all` it never fails.
   virtual bool list(const Line& line, double from, double to, double floor, bool all) = 0;
   /// Whether the cutter touched anything over the middle of the stretch listed last.
   virtual bool touches() const = 0;

@@ -54,7 +54,8 @@ class Linker {
       go(MoveKind::line, to, o_.plunge_feed);
       return;
     }
-    const double level = std::min(std::max(round_up(std::max({at_.z, to.z, top}) + o_.clearance, o_), at_.z), o_.safe_height);
+    const double level =
+        std::min(std::max(round_up(std::max({at_.z, to.z, top}) + o_.clearance, o_), at_.z), o_.safe_height);
     go(MoveKind::rapid, {at_.x, at_.y, level}, 0);
     go(MoveKind::rapid, {to.x, to.y, level}, 0);
     descend(to);
@@ -84,8 +85,10 @@ Result<ToolPath> link_cuts(const DropCutter& cutter, std::vector<Cut>&& cuts, co
   if (!done) return Error{ErrorCode::cancelled, "cancelled", "", ""};
   Linker linker(options);
   for (std::size_t k = 0; k < cuts.size(); ++k) {
-    if (k == 0) linker.start(cuts[k].start);
-    else linker.link(cuts[k].start, top[k]);
+    if (k == 0)
+      linker.start(cuts[k].start);
+    else
+      linker.link(cuts[k].start, top[k]);
     linker.cut(cuts[k]);
     cuts[k] = {};
   }

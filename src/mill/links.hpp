@@ -18,16 +18,16 @@ struct Cut {
 
 /// How cuts are put together.
 struct LinkOptions {
-  double safe_height;   ///< of the ball's centre, above everything
-  double clearance;     ///< of rapid moves
+  double safe_height;  ///< of the ball's centre, above everything
+  double clearance;    ///< of rapid moves
   double feed, plunge_feed;
-  double short_link;    ///< links up to this length are taken at the feed, without clearance
-  double floor;         ///< relative to the part's origin, of the ball's centre
-  double unit, z0;      ///< heights are z0 + k unit
+  double short_link;  ///< links up to this length are taken at the feed, without clearance
+  double floor;       ///< relative to the part's origin, of the ball's centre
+  double unit, z0;    ///< heights are z0 + k unit
 };
 
-/// One path of all cuts in their order. Links go straight up, level and straight down; level parts are above the highest place
-/// of the cutter's surface (proven by bounds) below them.
+/// One path of all cuts in their order. Links go straight up, level and straight down; level parts are above the
+/// highest place of the cutter's surface (proven by bounds) below them.
 Result<ToolPath> link_cuts(const DropCutter& cutter, std::vector<Cut>&& cuts, const LinkOptions& options,
                            const Context& context);
 

@@ -17,9 +17,9 @@
 namespace krepl {
 namespace {
 
-using mill::Cut;
 using mill::CurveFit;
 using mill::CurveRun;
+using mill::Cut;
 using mill::FittedMove;
 using mill::LatticePoint;
 
@@ -31,39 +31,46 @@ bool is_positive(double x) { return std::isfinite(x) && x > 0; }
 
 /// Lengths that follow from the options, all relative to the part's origin.
 struct Plan {
-  double radius;     // of the cutter as it is computed with: allowance and room for the lattice's arcs
-  double accuracy;   // of drive curves
-  double band;       // for fitting
-  double tip;        // from the control point's height to that of the centre
-  double z0;         // a height of the lattice, of the centre
-  double floor;      // of the centre
-  double safe;       // absolute, of the centre
+  double radius;    // of the cutter as it is computed with: allowance and room for the lattice's arcs
+  double accuracy;  // of drive curves
+  double band;      // for fitting
+  double tip;       // from the control point's height to that of the centre
+  double z0;        // a height of the lattice, of the centre
+  double floor;     // of the centre
+  double safe;      // absolute, of the centre
   double step_over;
 };
 
 Status check(const ParallelOptions& o) {
-  if (!is_positive(o.tool.radius)) return usage("the tool's radius is not a finite number greater than zero", "give one in the unit of the part");
-  if (!std::isfinite(o.tool.allowance) || o.tool.allowance < 0) return usage("the allowance is not a finite number of zero or more", "");
-  if (!is_positive(o.accuracy.unit)) return usage("the unit of coordinates is not a finite number greater than zero", "");
+  if (!is_positive(o.tool.radius))
+    return usage("the tool's radius is not a finite number greater than zero", "give one in the unit of the part");
+  if (!std::isfinite(o.tool.allowance) || o.tool.allowance < 0)
+    return usage("the allowance is not a finite number of zero or more", "");
+  if (!is_positive(o.accuracy.unit))
+    return usage("the unit of coordinates is not a finite number greater than zero", "");
   if (!is_positive(o.accuracy.tolerance)) return usage("the tolerance is not a finite number greater than zero", "");
   if (o.accuracy.tolerance < 16 * o.accuracy.unit + 2 * o.accuracy.arc_error)
-    return usage("the tolerance " + shown(o.accuracy.tolerance) + " is too small for numbers that are multiples of " + shown(o.accuracy.unit),
+    return usage("the tolerance " + shown(o.accuracy.tolerance) + " is too small for numbers that are multiples of " +
+                     shown(o.accuracy.unit),
                  "use at least " + shown(16 * o.accuracy.unit + 2 * o.accuracy.arc_error) + ", or more decimals");
   if (!is_positive(o.motion.feed) || !is_positive(o.motion.plunge_feed) || !is_positive(o.motion.rapid_feed))
     return usage("a feed is not a finite number greater than zero", "give units a minute");
   if (!std::isfinite(o.angle)) return usage("the angle is not a finite number", "give degrees");
-  if ((o.step_over != 0) == (o.scallop != 0)) return usage("there is not one of step-over and scallop height", "give one of them");
-  if (o.step_over != 0 && !is_positive(o.step_over)) return usage("the step-over is not a finite number greater than zero", "");
+  if ((o.step_over != 0) == (o.scallop != 0))
+    return usage("there is not one of step-over and scallop height", "give one of them");
+  if (o.step_over != 0 && !is_positive(o.step_over))
+    return usage("the step-over is not a finite number greater than zero", "");
   if (o.scallop != 0 && !(is_positive(o.scallop) && o.scallop <= o.tool.radius / 2))
     return usage("the scallop height is not between 0 and half the tool's radius", "");
   if (o.scallop != 0 && o.scallop <= 1.25 * o.accuracy.tolerance)
-    return usage("the scallop height " + shown(o.scallop) + " leaves no room for the tolerance " + shown(o.accuracy.tolerance),
-                 "use a tolerance of at most " + shown(o.scallop / 1.25));
+    return usage(
+        "the scallop height " + shown(o.scallop) + " leaves no room for the tolerance " + shown(o.accuracy.tolerance),
+        "use a tolerance of at most " + shown(o.scallop / 1.25));
   return std::monostate{};
 }
 
-/// Two balls of radius R at distance w leave a ridge of R - sqrt(R^2 - w^2 / 4) on a plane along the passes. Somewhat less, so that
-/// gentle slopes across them need no further passes.
+/// Two balls of radius R at distance w leave a ridge of R - sqrt(R^2 - w^2 / 4) on a plane along the passes. Somewhat
+/// less, so that gentle slopes across them need no further passes.
 double step_over_of(const ParallelOptions& o) {
   if (o.step_over != 0) return o.step_over;
   const double height = o.scallop - o.accuracy.tolerance, radius = o.tool.radius + o.tool.allowance;
@@ -76,7 +83,8 @@ Result<Plan> make_plan(const Terrain& part, const ParallelOptions& o) {
   Plan plan;
   plan.radius = o.tool.radius + o.tool.allowance + 2 * a.unit;
   if (a.unit < 0x1p-34 * std::max({part.extent(), plan.radius, std::abs(part.origin().x), std::abs(part.origin().y)}))
-    return usage("numbers that are multiples of " + shown(a.unit) + " are too fine for the part's coordinates", "use fewer decimals");
+    return usage("numbers that are multiples of " + shown(a.unit) + " are too fine for the part's coordinates",
+                 "use fewer decimals");
   plan.accuracy = a.tolerance / 8;
   plan.band = a.tolerance - plan.accuracy - 4.5 * a.unit - a.arc_error;
   const Point3 origin = part.origin(), low = part.lowest(), high = part.highest();
@@ -87,11 +95,14 @@ Result<Plan> make_plan(const Terrain& part, const ParallelOptions& o) {
   const double height = o.motion.safe_height ? *o.motion.safe_height + plan.tip : top + o.tool.radius;
   plan.safe = std::ceil((height - plan.tip) / a.unit) * a.unit + plan.tip;
   if (plan.safe < top)
-    return usage("the safe height " + shown(*o.motion.safe_height) + " is below the highest place of the tool over the part",
-                 "use at least " + shown(top - plan.tip));
+    return usage(
+        "the safe height " + shown(*o.motion.safe_height) + " is below the highest place of the tool over the part",
+        "use at least " + shown(top - plan.tip));
   plan.step_over = step_over_of(o);
-  if (plan.step_over < 4 * a.unit) return usage("the step-over " + shown(plan.step_over) + " is too fine for the numbers' decimals", "");
-  if (plan.step_over < 1e-6 * part.extent()) return usage("the step-over " + shown(plan.step_over) + " means more than a million passes", "use a larger one");
+  if (plan.step_over < 4 * a.unit)
+    return usage("the step-over " + shown(plan.step_over) + " is too fine for the numbers' decimals", "");
+  if (plan.step_over < 1e-6 * part.extent())
+    return usage("the step-over " + shown(plan.step_over) + " means more than a million passes", "use a larger one");
   return plan;
 }
 
@@ -101,7 +112,8 @@ class PassMoves {
   PassMoves(const mill::PassLayout& layout, const Plan& plan, const ParallelOptions& options)
       : layout_(layout), plan_(plan), o_(options) {}
 
-  Cut cut(const mill::PassLayout::Pass& pass, LatticePoint start, const std::vector<FittedMove>& moves, bool backwards) const {
+  Cut cut(const mill::PassLayout::Pass& pass, LatticePoint start, const std::vector<FittedMove>& moves,
+          bool backwards) const {
     Cut cut;
     cut.start = point(pass, backwards && !moves.empty() ? moves.back().end : start);
     for (std::size_t n = 0; n < moves.size(); ++n) {
@@ -116,7 +128,8 @@ class PassMoves {
  private:
   Point3 point(const mill::PassLayout::Pass& pass, LatticePoint at) const {
     const double unit = o_.accuracy.unit;
-    return {double(pass.i0 + at.i * layout_.p) * unit, double(pass.j0 + at.i * layout_.q) * unit, double(at.k) * unit + plan_.tip};
+    return {double(pass.i0 + at.i * layout_.p) * unit, double(pass.j0 + at.i * layout_.q) * unit,
+            double(at.k) * unit + plan_.tip};
   }
   /// An arc over a top turns clockwise as seen from the right of the way. From +Y one looks at the right side of a way
   /// along -x, from +X at that of a way along y.
@@ -151,7 +164,8 @@ PassResult make_pass(const DropCutter& cutter, const mill::PassLayout& layout, s
   mill::BallBodies bodies(cutter);
   mill::DriveCurve curve(bodies, {plan.floor, plan.accuracy, o.accuracy.unit / 64, layout.step});
   std::vector<CurveRun> runs;
-  curve.trace(layout.line(pass), double(pass.first) * layout.step, double(pass.last) * layout.step, o.bottom.has_value(), runs);
+  curve.trace(layout.line(pass), double(pass.first) * layout.step, double(pass.last) * layout.step,
+              o.bottom.has_value(), runs);
   PassResult result;
   result.touches = curve.touches();
   mill::FitOptions fit{layout.step, o.accuracy.unit, plan.z0, plan.band, o.accuracy.arc_error, 0};
@@ -168,12 +182,13 @@ PassResult make_pass(const DropCutter& cutter, const mill::PassLayout& layout, s
 }
 
 /// Adds passes where the scallop asked for would be exceeded between those laid out.
-bool refine_passes(const DropCutter& cutter, mill::PassLayout& layout, const Plan& plan, const ParallelOptions& o, MillReport& report,
-                   const Context& context) {
+bool refine_passes(const DropCutter& cutter, mill::PassLayout& layout, const Plan& plan, const ParallelOptions& o,
+                   MillReport& report, const Context& context) {
   if (layout.passes.size() < 2) return true;
   std::vector<mill::ExtraPasses> extra(layout.passes.size() - 1);
   mill::ScallopOptions scallops;
-  scallops.radius = cutter.radius(), scallops.height = o.scallop - o.accuracy.tolerance, scallops.every = plan.step_over / 2;
+  scallops.radius = cutter.radius(), scallops.height = o.scallop - o.accuracy.tolerance,
+  scallops.every = plan.step_over / 2;
   Context quiet;
   quiet.threads = context.threads, quiet.cancel = context.cancel;
   const bool done = kernel::parallel_blocks(quiet, extra.size(), 1, [&](std::size_t k, std::size_t) {
@@ -189,7 +204,8 @@ bool refine_passes(const DropCutter& cutter, mill::PassLayout& layout, const Pla
     passes.push_back(layout.passes[k]);
     backwards = !backwards;
     if (k == extra.size()) break;
-    report.extra_passes += extra[k].passes.size(), report.sections += extra[k].sections, report.uneven_sections += extra[k].remaining;
+    report.extra_passes += extra[k].passes.size(), report.sections += extra[k].sections,
+        report.uneven_sections += extra[k].remaining;
     if (extra[k].passes.empty()) continue;
     // The pieces of a gap on the way back, whatever line they are on.
     std::stable_sort(extra[k].passes.begin(), extra[k].passes.end(), [backwards](const auto& a, const auto& b) {
@@ -221,15 +237,18 @@ void measure(const ToolPath& path, const MillMotion& motion, MillReport& report)
                                                       : std::hypot(at.x - m.centre.x, at.y - m.centre.y);
       length = 2 * radius * std::asin(std::min(1.0, length / (2 * radius)));
     }
-    if (m.kind == MoveKind::rapid) ++report.rapids, report.rapid_length += length, report.minutes += length / motion.rapid_feed;
-    else ++(arc ? report.arcs : report.lines), report.cutting_length += length, report.minutes += length / m.feed;
+    if (m.kind == MoveKind::rapid)
+      ++report.rapids, report.rapid_length += length, report.minutes += length / motion.rapid_feed;
+    else
+      ++(arc ? report.arcs : report.lines), report.cutting_length += length, report.minutes += length / m.feed;
     at = m.end;
   }
 }
 
 }  // namespace mill
 
-Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const ParallelOptions& o, const Context& context) {
+Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const ParallelOptions& o,
+                                 const Context& context) {
   Result<Plan> made = make_plan(*part, o);
   if (!made) return made.error();
   Plan& plan = *made;
@@ -259,10 +278,10 @@ Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const Para
   milled.report.step_over = layout.step_over, milled.report.angle = layout.angle();
   const double clearance = o.motion.clearance >= 0 ? o.motion.clearance : o.tool.radius / 2;
   const double short_link = o.zigzag ? 1.5 * plan.step_over : 0;
-  Result<ToolPath> path = mill::link_cuts(*cutter, std::move(cuts),
-                                          {plan.safe, clearance, o.motion.feed, o.motion.plunge_feed, short_link, plan.floor,
-                                           o.accuracy.unit, plan.tip},
-                                          context);
+  Result<ToolPath> path = mill::link_cuts(
+      *cutter, std::move(cuts),
+      {plan.safe, clearance, o.motion.feed, o.motion.plunge_feed, short_link, plan.floor, o.accuracy.unit, plan.tip},
+      context);
   if (!path) return path.error();
   milled.path = std::move(*path);
   mill::measure(milled.path, o.motion, milled.report);

@@ -42,7 +42,8 @@ PassLayout lay_passes(const Terrain& part, double unit, double degrees, double s
   PassLayout layout;
   layout.lattice = {unit, part.origin()};
   // Passes are a whole number of lattice steps apart: of a few per cent of the step-over at most.
-  const std::int64_t most = std::clamp<std::int64_t>(std::int64_t(std::min(step_over / 32, tolerance / 4) / unit / 1.415), 1, 120);
+  const std::int64_t most =
+      std::clamp<std::int64_t>(std::int64_t(std::min(step_over / 32, tolerance / 4) / unit / 1.415), 1, 120);
   find_direction(degrees, most, layout.p, layout.q);
   const double length = std::hypot(double(layout.p), double(layout.q));
   layout.step = length * unit;

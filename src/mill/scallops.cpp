@@ -89,8 +89,8 @@ class Gap {
 
 }  // namespace
 
-ExtraPasses find_extra_passes(DriveCurve& curve, const PassLayout& layout, const PassLayout::Pass& a, const PassLayout::Pass& b,
-                              const ScallopOptions& options) {
+ExtraPasses find_extra_passes(DriveCurve& curve, const PassLayout& layout, const PassLayout::Pass& a,
+                              const PassLayout::Pass& b, const ScallopOptions& options) {
   ExtraPasses out;
   // Lattice steps from a to b, to the left.
   const std::int64_t squared = layout.p * layout.p + layout.q * layout.q;

@@ -57,7 +57,10 @@ class GcodeWriter {
       word(m.plane == ArcPlane::xy ? "G17" : m.plane == ArcPlane::zx ? "G18" : "G19");
       plane_ = m.plane;
     }
-    const int motion = m.kind == MoveKind::rapid ? 0 : m.kind == MoveKind::line ? 1 : m.kind == MoveKind::clockwise ? 2 : 3;
+    const int motion = m.kind == MoveKind::rapid       ? 0
+                       : m.kind == MoveKind::line      ? 1
+                       : m.kind == MoveKind::clockwise ? 2
+                                                       : 3;
     if (motion != motion_) word(fmt::format("G{}", motion));
     motion_ = motion;
     bool moves = false;

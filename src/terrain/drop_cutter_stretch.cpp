@@ -69,13 +69,14 @@ bool StretchSearch::list(Point from, Point to, double floor, std::vector<Part>& 
       // On its way over the rim of a wall a ball tells nothing: one of the ends may lie on the ground beside it.
       for (const Point end : {from, to}) {
         DropCutterAccess::Trace beside = trace;
-        const LowerBound other = below(hierarchy.touch(tree, end, radius, beside), centre, half_x, half_y, radius, floor);
+        const LowerBound other =
+            below(hierarchy.touch(tree, end, radius, beside), centre, half_x, half_y, radius, floor);
         if (other.height > bound.height) bound = other;
       }
     }
     const double unit = tree.inverse_unit();
-    Survey survey = tree.survey(centre, radius,
-                                {up(half_x * unit), up(half_y * unit), float(bound.slope_x), float(bound.slope_y)});
+    Survey survey =
+        tree.survey(centre, radius, {up(half_x * unit), up(half_y * unit), float(bound.slope_x), float(bound.slope_y)});
     if (bound.height != nothing) survey.raise(bound.height);
     Shortlist shortlist;
     tree.list(survey, shortlist);

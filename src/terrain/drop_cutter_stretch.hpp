@@ -8,8 +8,8 @@
 
 namespace krepl::drop {
 
-/// Finds the triangles that a ball may touch while its place moves along a stretch of a line. Keeps buffers and what was touched
-/// last: one for each thread. The cutter must outlive it.
+/// Finds the triangles that a ball may touch while its place moves along a stretch of a line. Keeps buffers and what
+/// was touched last: one for each thread. The cutter must outlive it.
 class StretchSearch {
  public:
   explicit StretchSearch(const DropCutter& cutter) : cutter_(cutter) {}
@@ -18,8 +18,8 @@ class StretchSearch {
   /// About how far apart samples or vertices are.
   double cell() const;
 
-  /// Replaces `parts` by triangles among which are all that the ball touches over any place between `from` and `to` with its
-  /// centre above `floor`. False, and `parts` is of no use, if these are too many for a short list.
+  /// Replaces `parts` by triangles among which are all that the ball touches over any place between `from` and `to`
+  /// with its centre above `floor`. False, and `parts` is of no use, if these are too many for a short list.
   bool list(Point from, Point to, double floor, std::vector<Part>& parts);
   /// All triangles within R of the stretch, however many.
   void list_all(Point from, Point to, std::vector<Part>& parts);

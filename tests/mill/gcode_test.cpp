@@ -34,7 +34,8 @@ Interpretation interpret(const std::string& program, const std::filesystem::path
   std::ofstream(directory / "tool.tbl") << "T1 P1 D1 Z0\nT7 P7 D1 Z0\n";
   std::ofstream(directory / "rs274.var") << "5161 0\n5162 0\n5163 0\n5220 1\n";
   const auto out = directory / "canonical.txt", error = directory / "error.txt";
-  const std::string command = "cd '" + directory.string() + "' && rs274 -g -t tool.tbl -v rs274.var '" + program + "' >canonical.txt 2>error.txt";
+  const std::string command = "cd '" + directory.string() + "' && rs274 -g -t tool.tbl -v rs274.var '" + program +
+                              "' >canonical.txt 2>error.txt";
   Interpretation result;
   result.accepted = std::system(command.c_str()) == 0;
   std::stringstream complaint;
@@ -58,8 +59,10 @@ Interpretation interpret(const std::string& program, const std::filesystem::path
   return result;
 }
 
-/// The largest difference between a path and what the interpreter makes of its program; -1 where the kinds of moves differ.
-double worst_difference(const ToolPath& path, double below_centre, const std::vector<CanonicalMove>& moves, std::size_t first) {
+/// The largest difference between a path and what the interpreter makes of its program; -1 where the kinds of moves
+/// differ.
+double worst_difference(const ToolPath& path, double below_centre, const std::vector<CanonicalMove>& moves,
+                        std::size_t first) {
   double worst = 0;
   std::size_t n = first;
   Point3 at = path.start;
@@ -69,9 +72,14 @@ double worst_difference(const ToolPath& path, double below_centre, const std::ve
     if (!arc && m.end == at) continue;
     if (n == moves.size()) return -1;
     const CanonicalMove& c = moves[n++];
-    const Point3 end{m.end.x, m.end.y, m.end.z - below_centre}, centre{m.centre.x, m.centre.y, m.centre.z - below_centre};
+    const Point3 end{m.end.x, m.end.y, m.end.z - below_centre},
+        centre{m.centre.x, m.centre.y, m.centre.z - below_centre};
     at = m.end;
-    if (c.name != (arc ? "ARC_FEED" : m.kind == MoveKind::rapid ? "STRAIGHT_TRAVERSE" : "STRAIGHT_FEED") || c.numbers.size() < 6) return -1;
+    if (c.name != (arc                         ? "ARC_FEED"
+                   : m.kind == MoveKind::rapid ? "STRAIGHT_TRAVERSE"
+                                               : "STRAIGHT_FEED") ||
+        c.numbers.size() < 6)
+      return -1;
     if (!arc) {
       look(c.numbers[0], end.x), look(c.numbers[1], end.y), look(c.numbers[2], end.z);
       continue;
@@ -93,14 +101,16 @@ class Programs : public testing::Test {
  protected:
   void SetUp() override {
     if (!has_interpreter()) GTEST_SKIP() << "rs274 is not installed (Debian: linuxcnc-uspace)";
-    directory_ = std::filesystem::temp_directory_path() / ("krepl-gcode-" + std::to_string(std::rand()) + "-" + std::to_string(seed()));
+    directory_ = std::filesystem::temp_directory_path() /
+                 ("krepl-gcode-" + std::to_string(std::rand()) + "-" + std::to_string(seed()));
     std::filesystem::create_directories(directory_);
   }
   void TearDown() override {
     if (!directory_.empty()) std::filesystem::remove_all(directory_);
   }
 
-  void expect_same(const std::shared_ptr<const Terrain>& part, const ParallelOptions& o, const output::GcodeOptions& gcode) {
+  void expect_same(const std::shared_ptr<const Terrain>& part, const ParallelOptions& o,
+                   const output::GcodeOptions& gcode) {
     const auto milled = mill_parallel(part, o);
     ASSERT_TRUE(milled) << milled.error().text();
     arcs_ += milled->report.arcs;
@@ -108,7 +118,8 @@ class Programs : public testing::Test {
     const auto lines = output::write_gcode(program, milled->path, gcode);
     ASSERT_TRUE(lines) << lines.error().text();
     const Interpretation found = interpret(program, directory_);
-    EXPECT_TRUE(found.accepted) << found.complaint << found.text.substr(found.text.size() > 500 ? found.text.size() - 500 : 0);
+    EXPECT_TRUE(found.accepted) << found.complaint
+                                << found.text.substr(found.text.size() > 500 ? found.text.size() - 500 : 0);
     EXPECT_NE(found.text.find("PROGRAM_END"), std::string::npos) << found.complaint;
     EXPECT_NE(found.text.find(gcode.inches ? "CANON_UNITS_INCHES" : "CANON_UNITS_MM"), std::string::npos);
     // The two moves to the start come first.

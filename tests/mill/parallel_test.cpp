@@ -1,4 +1,5 @@
-// Parallel passes by brute force: never in the part, never farther from it than the tolerance, arcs as controllers run them.
+// Parallel passes by brute force: never in the part, never farther from it than the tolerance, arcs as controllers run
+// them.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -28,8 +29,8 @@ double worst_rounding(const ToolPath& path, double unit, double tip) {
   return worst;
 }
 
-/// Moves that a tolerance holds for: not those between cuts, which stay above. They are the ones that start or end on none of the
-/// passes; here: rapid moves, and moves at the plunge feed.
+/// Moves that a tolerance holds for: not those between cuts, which stay above. They are the ones that start or end on
+/// none of the passes; here: rapid moves, and moves at the plunge feed.
 void expect_safe(const SmallTerrain& c, const ParallelOptions& o, const char* what) {
   const auto made = terrain_of(c);
   if (!made) return;
@@ -39,22 +40,30 @@ void expect_safe(const SmallTerrain& c, const ParallelOptions& o, const char* wh
   const double grown = o.tool.radius + o.tool.allowance, scale = std::max(part->extent(), o.tool.radius);
   const double floor = o.bottom ? *o.bottom + o.tool.radius - part->origin().z : part->lowest().z + grown;
   const double step = std::max(o.tool.radius / 8, scale / 100);
-  const PathCheck check = check_path(*part, part, milled->path, grown, grown + o.accuracy.tolerance + o.accuracy.arc_error, floor,
-                                     step, 10, [](const Move&) { return false; });
-  EXPECT_LE(check.deepest, 1e-9 * scale) << what << " gouges at " << check.deepest_at.x << " " << check.deepest_at.y << " "
-                                         << check.deepest_at.z << ", angle " << o.angle << "\n" << c;
-  EXPECT_LE(worst_rounding(milled->path, o.accuracy.unit, o.accuracy.control_point == ControlPoint::tip ? o.tool.radius : 0), 1e-4) << what;
+  const PathCheck check =
+      check_path(*part, part, milled->path, grown, grown + o.accuracy.tolerance + o.accuracy.arc_error, floor, step, 10,
+                 [](const Move&) { return false; });
+  EXPECT_LE(check.deepest, 1e-9 * scale) << what << " gouges at " << check.deepest_at.x << " " << check.deepest_at.y
+                                         << " " << check.deepest_at.z << ", angle " << o.angle << "\n"
+                                         << c;
+  EXPECT_LE(
+      worst_rounding(milled->path, o.accuracy.unit, o.accuracy.control_point == ControlPoint::tip ? o.tool.radius : 0),
+      1e-4)
+      << what;
   // One way without links in between: what is cut along passes stays within the tolerance.
   ParallelOptions one_way = o;
   one_way.zigzag = false;
   const auto passes = mill_parallel(part, one_way);
   ASSERT_TRUE(passes);
   const double feed = one_way.motion.feed;
-  const PathCheck near = check_path(*part, part, passes->path, grown, grown + o.accuracy.tolerance + o.accuracy.arc_error, floor,
-                                    step, 10, [feed](const Move& m) { return m.kind != MoveKind::rapid && m.feed == feed; });
+  const PathCheck near =
+      check_path(*part, part, passes->path, grown, grown + o.accuracy.tolerance + o.accuracy.arc_error, floor, step, 10,
+                 [feed](const Move& m) { return m.kind != MoveKind::rapid && m.feed == feed; });
   EXPECT_LE(near.deepest, 1e-9 * scale) << what;
-  EXPECT_LE(near.highest, 1e-9 * scale) << what << " is too far above at " << near.highest_at.x << " " << near.highest_at.y << " "
-                                        << near.highest_at.z << ", angle " << o.angle << "\n" << c;
+  EXPECT_LE(near.highest, 1e-9 * scale) << what << " is too far above at " << near.highest_at.x << " "
+                                        << near.highest_at.y << " " << near.highest_at.z << ", angle " << o.angle
+                                        << "\n"
+                                        << c;
 }
 
 TEST(ParallelPasses, NeverCutIntoRandomTerrains) {
@@ -76,8 +85,8 @@ TEST(ParallelPasses, NeverCutIntoRandomTerrains) {
   }
 }
 
-/// The part's surface after milling, by brute force: at places of a fine raster, how far above the ball at rest the nearest ball of
-/// the path is along the normal of the point touched.
+/// The part's surface after milling, by brute force: at places of a fine raster, how far above the ball at rest the
+/// nearest ball of the path is along the normal of the point touched.
 class Scallop {
  public:
   Scallop(const ToolPath& path, double feed, double radius) : radius_(radius) {
@@ -105,7 +114,9 @@ class Scallop {
 
  private:
   double size() const { return radius_ / 2; }
-  std::pair<int, int> key(double x, double y) const { return {int(std::floor(x / size())), int(std::floor(y / size()))}; }
+  std::pair<int, int> key(double x, double y) const {
+    return {int(std::floor(x / size())), int(std::floor(y / size()))};
+  }
   double radius_;
   std::map<std::pair<int, int>, std::vector<Point3>> bins_;
 };
@@ -148,7 +159,8 @@ TEST(ParallelPasses, LeaveNoMoreThanTheScallopOnSlopesAndDomes) {
         worst = std::max(worst, left);
       }
     // Sharp valleys along the passes (the foot of the roof) stay, and are told.
-    EXPECT_LE(double(over), 0.002 * double(places)) << "angle " << angle << ", worst " << worst << ", " << over << " of " << places;
+    EXPECT_LE(double(over), 0.002 * double(places))
+        << "angle " << angle << ", worst " << worst << ", " << over << " of " << places;
     if (over > 0) {
       EXPECT_GT(milled->report.uneven_sections, 0u);
     }

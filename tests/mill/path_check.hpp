@@ -10,8 +10,8 @@
 
 namespace krepl::test {
 
-/// Calls visit(place of the centre, move) at points of a path at most `step` apart, and at least `least` of each move. Arcs are
-/// run as controllers do: the radius changes evenly from that at the start to that at the end.
+/// Calls visit(place of the centre, move) at points of a path at most `step` apart, and at least `least` of each move.
+/// Arcs are run as controllers do: the radius changes evenly from that at the start to that at the end.
 inline void walk(const ToolPath& path, double step, int least, const std::function<void(Point3, const Move&)>& visit) {
   Point3 at = path.start;
   for (const Move& m : path.moves) {
@@ -21,7 +21,9 @@ inline void walk(const ToolPath& path, double step, int least, const std::functi
       const int n = std::max(least, int(std::ceil(length / step)));
       for (int i = 0; i <= n; ++i) {
         const double s = double(i) / n;
-        visit(i == n ? m.end : Point3{at.x + s * (m.end.x - at.x), at.y + s * (m.end.y - at.y), at.z + s * (m.end.z - at.z)}, m);
+        visit(i == n ? m.end
+                     : Point3{at.x + s * (m.end.x - at.x), at.y + s * (m.end.y - at.y), at.z + s * (m.end.z - at.z)},
+              m);
       }
     } else {
       // First and second axis of the plane: X Y, Z X, Y Z, so that counter-clockwise turns the first into the second.
@@ -39,9 +41,12 @@ inline void walk(const ToolPath& path, double step, int least, const std::functi
         const double s = double(i) / n, r = r0 + s * (r1 - r0), angle = from + s * turn;
         const double a = first(m.centre) + r * std::cos(angle), b = second(m.centre) + r * std::sin(angle);
         Point3 p = at;
-        if (m.plane == ArcPlane::xy) p.x = a, p.y = b;
-        else if (m.plane == ArcPlane::zx) p.z = a, p.x = b;
-        else p.y = a, p.z = b;
+        if (m.plane == ArcPlane::xy)
+          p.x = a, p.y = b;
+        else if (m.plane == ArcPlane::zx)
+          p.z = a, p.x = b;
+        else
+          p.y = a, p.z = b;
         visit(i == n ? m.end : p, m);
       }
     }
@@ -57,10 +62,11 @@ struct PathCheck {
   std::size_t places = 0;
 };
 
-/// Drops a ball of radius `radius` at places along the path, and one of radius `outer`: a centre is within outer - radius of the
-/// surface if it is below that of the larger ball. Moves for which `links` are also those up, down and across between cuts.
-inline PathCheck check_path(const Terrain& part, std::shared_ptr<const Terrain> shared, const ToolPath& path, double radius,
-                            double outer, double floor, double step, int least,
+/// Drops a ball of radius `radius` at places along the path, and one of radius `outer`: a centre is within outer -
+/// radius of the surface if it is below that of the larger ball. Moves for which `links` are also those up, down and
+/// across between cuts.
+inline PathCheck check_path(const Terrain& part, std::shared_ptr<const Terrain> shared, const ToolPath& path,
+                            double radius, double outer, double floor, double step, int least,
                             const std::function<bool(const Move&)>& must_be_near) {
   const auto cutter = DropCutter::build(std::move(shared), radius);
   const auto larger = cutter->with_radius(outer);
@@ -79,7 +85,8 @@ inline PathCheck check_path(const Terrain& part, std::shared_ptr<const Terrain> 
   if (!cutter->at(places, inner) || !larger->at(places, beyond)) return check;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double low = std::max(inner[i].height, floor), high = std::max(beyond[i].height, floor + (outer - radius));
-    if (low - heights[i] > check.deepest) check.deepest = low - heights[i], check.deepest_at = {places[i].x, places[i].y, heights[i]};
+    if (low - heights[i] > check.deepest)
+      check.deepest = low - heights[i], check.deepest_at = {places[i].x, places[i].y, heights[i]};
     if (near[i] && heights[i] - high > check.highest)
       check.highest = heights[i] - high, check.highest_at = {places[i].x, places[i].y, heights[i]};
   }

@@ -15,9 +15,9 @@ struct RealPart {
   double radius;  // relative to the longer side
 };
 const RealPart real_parts[] = {
-    {"mesh/mount_rush.off.gz", 0.02},   {"mesh/demo.off", 0.15},          {"mesh/ktoolcav.off", 0.03}, {"mesh/featuretype.off", 0.05},
-    {"mesh/failedinpycam.off", 0.04},   {"mesh/pycam-textbox.off", 0.01}, {"mesh/ktoolcav.stl", 0.1},  {"dem/jacksboro.asc.gz", 0.004},
-    {"dem/jacksboro.asc.gz", 0.03},
+    {"mesh/mount_rush.off.gz", 0.02}, {"mesh/demo.off", 0.15},          {"mesh/ktoolcav.off", 0.03},
+    {"mesh/featuretype.off", 0.05},   {"mesh/failedinpycam.off", 0.04}, {"mesh/pycam-textbox.off", 0.01},
+    {"mesh/ktoolcav.stl", 0.1},       {"dem/jacksboro.asc.gz", 0.004},  {"dem/jacksboro.asc.gz", 0.03},
 };
 
 /// The elevation model is in degrees: as cells of 92 m.
@@ -41,7 +41,8 @@ TEST_P(RealParts, AreNotCutInto) {
   request.path = (*data / GetParam().file).string();
   const auto file = input::read_terrain(request);
   ASSERT_TRUE(file) << file.error().text();
-  const auto made = file->terrain->is_grid() ? in_metres(*file->terrain) : Result<std::shared_ptr<const Terrain>>(file->terrain);
+  const auto made =
+      file->terrain->is_grid() ? in_metres(*file->terrain) : Result<std::shared_ptr<const Terrain>>(file->terrain);
   ASSERT_TRUE(made);
   const std::shared_ptr<const Terrain> shared = *made;
   const Terrain& part = *shared;
@@ -60,12 +61,14 @@ TEST_P(RealParts, AreNotCutInto) {
     // Cutter locations of chords within the tolerance are about so far apart.
     const double spacing = std::sqrt(8 * o.accuracy.tolerance * o.tool.radius), feed = o.motion.feed;
     const double extent = std::max(part.extent(), o.tool.radius), floor = part.lowest().z + o.tool.radius;
-    const PathCheck check = check_path(part, shared, milled->path, o.tool.radius, o.tool.radius + o.accuracy.tolerance, floor,
-                                       spacing / 10, 10, [feed](const Move& m) { return m.kind != MoveKind::rapid && m.feed == feed; });
+    const PathCheck check =
+        check_path(part, shared, milled->path, o.tool.radius, o.tool.radius + o.accuracy.tolerance, floor, spacing / 10,
+                   10, [feed](const Move& m) { return m.kind != MoveKind::rapid && m.feed == feed; });
     EXPECT_GT(check.places, 1000u);
-    EXPECT_LE(check.deepest, 1e-9 * extent) << "angle " << angle << " at " << check.deepest_at.x << " " << check.deepest_at.y;
-    EXPECT_LE(check.highest, 1e-9 * extent) << "angle " << angle << " at " << check.highest_at.x << " " << check.highest_at.y << " "
-                                            << check.highest_at.z;
+    EXPECT_LE(check.deepest, 1e-9 * extent)
+        << "angle " << angle << " at " << check.deepest_at.x << " " << check.deepest_at.y;
+    EXPECT_LE(check.highest, 1e-9 * extent)
+        << "angle " << angle << " at " << check.highest_at.x << " " << check.highest_at.y << " " << check.highest_at.z;
   }
 }
 
