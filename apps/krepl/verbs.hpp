@@ -89,6 +89,7 @@ void add_contour_verb(CLI::App& program, Session& session);
 void add_height_verb(CLI::App& program, Session& session);
 void add_info_verb(CLI::App& program, Session& session);
 void add_lab_verb(CLI::App& program, Session& session);
+void add_mill_verb(CLI::App& program, Session& session);
 void add_offset_verb(CLI::App& program, Session& session);
 void add_profile_verb(CLI::App& program, Session& session);
 void add_rivers_verb(CLI::App& program, Session& session);
