@@ -36,7 +36,6 @@ class DriveCurve {
   double highest(const Line& line, double from, double to);
 
   std::uint64_t touches() const { return touches_; }
-  double floor() const { return options_.floor; }
 
  private:
   /// A body over the part [low, high] of an interval that it reaches over: its heights at both ends, and the point

@@ -32,20 +32,31 @@ struct Level {
   std::vector<std::vector<Stretch>> passes;
 };
 
-/// Where the curve lies on its floor.
-std::vector<Stretch> flat_stretches(const std::vector<CurveRun>& runs, double floor, double step, std::size_t pass) {
+/// Where a curve is not above a level.
+std::vector<Stretch> stretches_below(const CurveRun& run, double level, double step, std::size_t pass) {
   std::vector<Stretch> found;
-  for (const CurveRun& run : runs)
-    for (std::size_t v = 0; v + 1 < run.size(); ++v) {
-      if (run[v].z > floor || run[v + 1].z > floor) continue;
-      std::size_t end = v + 1;
-      while (end + 1 < run.size() && run[end + 1].z <= floor) ++end;
-      const std::int64_t first = std::int64_t(std::ceil(run[v].t / step)),
-                         last = std::int64_t(std::floor(run[end].t / step));
-      if (first < last) found.push_back({pass, first, last});
-      v = end;
-    }
+  const auto crossing = [&](std::size_t v) {  // of the segment from v
+    const double dt = run[v + 1].t - run[v].t, dz = run[v + 1].z - run[v].z;
+    return run[v].t + dt * std::clamp((level - run[v].z) / dz, 0.0, 1.0);
+  };
+  for (std::size_t v = 0; v < run.size(); ++v) {
+    if (run[v].z > level) continue;
+    std::size_t end = v;
+    while (end + 1 < run.size() && run[end + 1].z <= level) ++end;
+    // Half a step less where the curve rises: rounding of the crossing.
+    const double from = v == 0 ? run[v].t : crossing(v - 1) + step / 2;
+    const double to = end + 1 == run.size() ? run[end].t : crossing(end) - step / 2;
+    const std::int64_t first = v == 0 ? std::llround(from / step) : std::int64_t(std::ceil(from / step));
+    const std::int64_t last = end + 1 == run.size() ? std::llround(to / step) : std::int64_t(std::floor(to / step));
+    if (first < last) found.push_back({pass, first, last});
+    v = end;
+  }
   return found;
+}
+
+/// Curves are traced above a floor somewhat below the level, as they may be above it by their accuracy.
+mill::DriveCurveOptions below_level(double level, const Plan& plan, double unit, double step) {
+  return {level - 2 * plan.accuracy, plan.accuracy, unit / 64, step};
 }
 
 /// Puts the levels' stretches together to one path.
@@ -59,8 +70,8 @@ class Rougher {
   /// `above`: the level above it, in units, or the top of the stock.
   void cut(Level& level, std::int64_t above) {
     k_ = level.k, above_ = above;
-    curve_.emplace(bodies_, mill::DriveCurveOptions{plan_.z0 + double(k_) * o_.accuracy.unit, plan_.accuracy,
-                                                    o_.accuracy.unit / 64, layout_.step});
+    level_ = plan_.z0 + double(k_) * o_.accuracy.unit;
+    curve_.emplace(bodies_, below_level(level_, plan_, o_.accuracy.unit, layout_.step));
     for (auto& pass : level.passes)
       for (Stretch& s : pass)
         if (!s.done) cut_region(level, s);
@@ -109,7 +120,7 @@ class Rougher {
     const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
     if (length > 4 * layout_.step_over) return false;
     const mill::Line line{{a.x - origin.x, a.y - origin.y}, {dx / length, dy / length}};
-    return curve_->highest(line, 0, length) <= curve_->floor();
+    return curve_->highest(line, 0, length) <= level_;
   }
 
   /// Down to an end of the stretch: beside the stock, or by a ramp.
@@ -166,6 +177,7 @@ class Rougher {
   std::optional<mill::DriveCurve> curve_;
   MillReport& report_;
   std::int64_t k_ = 0, above_ = 0;
+  double level_ = 0;  // relative to the part's origin
   Point3 at_;
 };
 
@@ -199,7 +211,7 @@ Result<std::vector<std::int64_t>> level_heights(const Terrain& part, const Plan&
   // The tip's heights, as those of the control point.
   const double tip_to_control = o.tool.radius - plan.tip;
   const auto top = std::int64_t(std::ceil((top_of_stock + tip_to_control) / unit));
-  const auto bottom = std::int64_t(std::ceil((plan.floor - plan.z0) / unit - 1e-6));
+  const auto bottom = std::int64_t(std::ceil((plan.floor - plan.z0) / unit)) + 1;  // not below by rounding
   if (bottom >= top) return mill::usage("the lowest level is not below the stock's top", "");
   const double count = std::ceil(double(top - bottom) * unit / o.step_down - 1e-9);
   if (count > 100000) return mill::usage("the step down means more than 100,000 levels", "use a larger one");
@@ -237,12 +249,12 @@ Result<MilledPath> mill_rough(std::shared_ptr<const Terrain> part, const RoughOp
     Level& level = cuts[work / passes];
     const std::size_t k = work % passes;
     const PassLayout::Pass& pass = layout.passes[k];
-    const double floor = plan.z0 + double(level.k) * unit;
+    const double height = plan.z0 + double(level.k) * unit;
     mill::BallBodies bodies(*cutter);
-    mill::DriveCurve curve(bodies, {floor, plan.accuracy, unit / 64, layout.step});
+    mill::DriveCurve curve(bodies, below_level(height, plan, unit, layout.step));
     std::vector<CurveRun> runs;
     curve.trace(layout.line(pass), double(pass.first) * layout.step, double(pass.last) * layout.step, true, runs);
-    level.passes[k] = flat_stretches(runs, floor, layout.step, k);
+    if (!runs.empty()) level.passes[k] = stretches_below(runs.front(), height, layout.step, k);
     progress.add(1);
   });
   if (!done) return Error{ErrorCode::cancelled, "cancelled", "", ""};
