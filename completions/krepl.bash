@@ -30,7 +30,7 @@ _krepl() {
       return ;;
     --zones) mapfile -t COMPREPLY < <(compgen -W "sub-river stem whole" -- "$current"); return ;;
     --outlet) mapfile -t COMPREPLY < <(compgen -W "guess" -- "$current"); return ;;
-    --strategy) mapfile -t COMPREPLY < <(compgen -W "parallel" -- "$current"); return ;;
+    --strategy) mapfile -t COMPREPLY < <(compgen -W "parallel rough" -- "$current"); return ;;
     --direction) mapfile -t COMPREPLY < <(compgen -W "zigzag one-way" -- "$current"); return ;;
     --post) mapfile -t COMPREPLY < <(compgen -W "linuxcnc grbl" -- "$current"); return ;;
     --control-point) mapfile -t COMPREPLY < <(compgen -W "tip centre" -- "$current"); return ;;
@@ -46,7 +46,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --arc-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit | --step-over | --scallop | --angle | --tolerance | --allowance | --bottom | --feed | --plunge-feed | --spindle | --safe-height | --clearance | --decimals | --tool-number) return ;;
+    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --arc-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit | --step-over | --scallop | --angle | --tolerance | --allowance | --bottom | --feed | --plunge-feed | --spindle | --safe-height | --clearance | --decimals | --tool-number | --step-down | --ramp-angle | --stock-top | --stock-margin) return ;;
   esac
   local command=("$verb")
   if [[ $verb == lab ]]; then

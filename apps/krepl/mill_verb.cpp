@@ -21,6 +21,7 @@ struct MillVerbOptions {
   TerrainOptions terrain;
   std::string output, tool, strategy = "parallel", direction = "zigzag", post = "linuxcnc", unit = "mm",
                             control_point = "tip";
+  std::string step_down, ramp_angle, stock_top, stock_margin;
   std::string step_over, scallop, tolerance, allowance, angle, bottom, safe_height, clearance, feed, plunge_feed,
       spindle;
   int decimals = -1, tool_number = 1;
@@ -28,7 +29,9 @@ struct MillVerbOptions {
 };
 
 struct MillPlan {
-  ParallelOptions parallel;
+  ParallelOptions parallel;  ///< of other strategies what they share with it
+  RoughOptions rough;
+  bool is_rough = false;
   output::GcodeOptions gcode;
   input::TerrainRequest request;
 };
@@ -117,26 +120,64 @@ Status take_motion(const MillVerbOptions& o, MillPlan& plan) {
   return std::monostate{};
 }
 
-Result<MillPlan> make_plan(const MillVerbOptions& o) {
-  MillPlan plan;
-  if (o.strategy != "parallel")
-    return usage(fmt::format("strategy '{}' is unknown", o.strategy), "give --strategy parallel");
-  if (Status s = take_tool(o.tool, plan); !s) return s.error();
-  if (Status s = take_post(o, plan); !s) return s.error();
-  if (Status s = take_motion(o, plan); !s) return s.error();
+/// An option that has no meaning for the strategy would be ignored in silence.
+Status check_meaning(const MillVerbOptions& o, bool rough) {
+  const auto refuse = [&](const char* option, const char* strategy) {
+    return usage(fmt::format("{} has no meaning for strategy {}", option, o.strategy),
+                 fmt::format("it belongs to {}", strategy));
+  };
+  for (const auto& [option, text] : {std::pair{"--step-down", &o.step_down},
+                                     {"--ramp-angle", &o.ramp_angle},
+                                     {"--stock-top", &o.stock_top},
+                                     {"--stock-margin", &o.stock_margin}})
+    if (!rough && !text->empty()) return refuse(option, "rough");
+  if (!rough) return std::monostate{};
+  if (!o.scallop.empty()) return refuse("--scallop", "parallel");
+  if (o.direction != "zigzag") return refuse("--direction", "parallel");
+  if (o.step_over.empty()) return usage("--step-over is not given", "give the distance of passes");
+  if (o.step_down.empty()) return usage("--step-down is not given", "give the distance of levels");
+  return std::monostate{};
+}
+
+Status take_rough(const MillVerbOptions& o, MillPlan& plan) {
+  const ParallelOptions& p = plan.parallel;
+  RoughOptions& r = plan.rough;
+  r.tool = p.tool, r.accuracy = p.accuracy, r.motion = p.motion, r.step_over = p.step_over, r.angle = p.angle,
+  r.bottom = p.bottom;
+  if (Status s = take("--step-down", o.step_down, r.step_down); !s) return s;
+  if (Status s = take("--ramp-angle", o.ramp_angle, r.ramp_angle); !s) return s;
+  if (Status s = take("--stock-margin", o.stock_margin, r.stock_margin, false); !s) return s;
+  double top = 0;
+  if (Status s = take("--stock-top", o.stock_top, top, false); !s) return s;
+  if (!o.stock_top.empty()) r.stock_top = top;
+  return std::monostate{};
+}
+
+Status take_passes(const MillVerbOptions& o, MillPlan& plan) {
   ParallelOptions& p = plan.parallel;
-  if (Status s = take("--step-over", o.step_over, p.step_over); !s) return s.error();
-  if (Status s = take("--scallop", o.scallop, p.scallop); !s) return s.error();
+  if (Status s = take("--step-over", o.step_over, p.step_over); !s) return s;
+  if (Status s = take("--scallop", o.scallop, p.scallop); !s) return s;
   if (p.step_over == 0 && p.scallop == 0)
     return usage("neither --step-over nor --scallop is given", "give one of them");
   if (p.step_over != 0 && p.scallop != 0) return usage("both --step-over and --scallop are given", "give one of them");
-  if (Status s = take("--angle", o.angle, p.angle, false); !s) return s.error();
-  if (Status s = take("--allowance", o.allowance, p.tool.allowance); !s) return s.error();
+  if (Status s = take("--angle", o.angle, p.angle, false); !s) return s;
+  if (Status s = take("--allowance", o.allowance, p.tool.allowance); !s) return s;
   double bottom = 0;
-  if (Status s = take("--bottom", o.bottom, bottom, false); !s) return s.error();
+  if (Status s = take("--bottom", o.bottom, bottom, false); !s) return s;
   if (!o.bottom.empty()) p.bottom = bottom;
-  if (Status s = choose("--direction", o.direction, {{"zigzag", true}, {"one-way", false}}, p.zigzag); !s)
+  return choose("--direction", o.direction, {{"zigzag", true}, {"one-way", false}}, p.zigzag);
+}
+
+Result<MillPlan> make_plan(const MillVerbOptions& o) {
+  MillPlan plan;
+  if (Status s = choose("--strategy", o.strategy, {{"parallel", false}, {"rough", true}}, plan.is_rough); !s)
     return s.error();
+  if (Status s = check_meaning(o, plan.is_rough); !s) return s.error();
+  if (Status s = take_tool(o.tool, plan); !s) return s.error();
+  if (Status s = take_post(o, plan); !s) return s.error();
+  if (Status s = take_motion(o, plan); !s) return s.error();
+  if (Status s = take_passes(o, plan); !s) return s.error();
+  if (Status s = take_rough(o, plan); !s) return s.error();
   plan.gcode.tool_number = o.tool_number;
   plan.gcode.strategy = o.strategy;
   const Result<input::TerrainRequest> request = terrain_request(o.terrain);
@@ -149,6 +190,8 @@ Result<MillPlan> make_plan(const MillVerbOptions& o) {
 void tell(const MillReport& r, std::size_t lines, const MillVerbOptions& o, const Stopwatch& total, Session& session) {
   session.detail(fmt::format("curves     {} points above them, {} bodies looked at", r.curve_points, r.touches));
   session.detail(fmt::format("passes     {}, {:.6g} apart, at {:.6g} degrees", r.passes, r.step_over, r.angle));
+  if (r.levels > 0)
+    session.detail(fmt::format("levels     {}; {} stretches are too short to be entered", r.levels, r.skipped_cuts));
   if (r.sections > 0)
     session.detail(
         fmt::format("scallops   {} sections looked at, {} pieces of passes added, {} sections where more is left",
@@ -172,7 +215,9 @@ int run_mill(const MillVerbOptions& options, Session& session) {
   if (!file) return session.fail(options.terrain.name(), file.error());
   tell_terrain(*file, options.terrain.name(), total.seconds(), session);
   const Stopwatch computing;
-  const Result<MilledPath> milled = mill_parallel(file->terrain, plan->parallel, session.context("milling"));
+  const Context context = session.context("milling");
+  const Result<MilledPath> milled = plan->is_rough ? mill_rough(file->terrain, plan->rough, context)
+                                                   : mill_parallel(file->terrain, plan->parallel, context);
   if (!milled)
     return session.fail(milled.error().code == ErrorCode::usage ? "" : options.terrain.name(), milled.error());
   session.detail(fmt::format("path       {:.3f} s", computing.seconds()));
@@ -185,7 +230,9 @@ int run_mill(const MillVerbOptions& options, Session& session) {
 
 void add_path_options(CLI::App& verb, MillVerbOptions& o) {
   verb.add_option("--tool", o.tool, "Cutter: ball:DIAMETER")->required()->type_name("KIND:SIZE");
-  verb.add_option("--strategy", o.strategy, "parallel (default): passes in vertical planes")->type_name("NAME");
+  verb.add_option("--strategy", o.strategy,
+                  "parallel (default): passes in vertical planes; rough: out of a block, level by level")
+      ->type_name("NAME");
   verb.add_option("--step-over", o.step_over, "Distance of passes")->type_name("LENGTH");
   verb.add_option("--scallop", o.scallop, "Instead of it: greatest height of what is left between passes")
       ->type_name("LENGTH");
@@ -199,6 +246,13 @@ void add_path_options(CLI::App& verb, MillVerbOptions& o) {
   verb.add_option("--bottom", o.bottom,
                   "Lowest Z of the tip; passes go there beside the part (default: the part's lowest place)")
       ->type_name("Z");
+  verb.add_option("--step-down", o.step_down, "rough: greatest distance of levels")->type_name("LENGTH");
+  verb.add_option("--ramp-angle", o.ramp_angle, "rough: steepest way down into the stock (default: 3)")
+      ->type_name("DEGREES");
+  verb.add_option("--stock-top", o.stock_top, "rough: top of the block (default: the part's)")->type_name("Z");
+  verb.add_option("--stock-margin", o.stock_margin,
+                  "rough: by how much the block is larger than the part on all sides (default: 0)")
+      ->type_name("LENGTH");
   verb.add_flag("--no-arcs", o.no_arcs, "Lines only");
 }
 

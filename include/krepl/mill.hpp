@@ -71,6 +71,8 @@ struct MillReport {
   double minutes = 0;               ///< without accelerations
   std::size_t curve_points = 0;     ///< of the polylines above the drive curves that moves were fitted to
   std::uint64_t touches = 0;        ///< evaluations of a triangle's sum with the ball
+  std::size_t levels = 0;           ///< of roughing
+  std::size_t skipped_cuts = 0;     ///< of roughing: stretches of passes too short to be entered
   double step_over = 0;             ///< used
   std::size_t extra_passes = 0;     ///< parts of passes between others, for the sake of the scallop
   std::size_t sections = 0;         ///< across the passes, looked at for that
@@ -93,5 +95,35 @@ struct MilledPath {
 /// part; no place that the ball touches; cancelled. Expected time proportional to the number of moves' pieces.
 Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const ParallelOptions& options,
                                  const Context& context = {});
+
+struct RoughOptions {
+  MillTool tool;  ///< with the stock that finishing is to take off as its allowance
+  MillAccuracy accuracy;
+  MillMotion motion;
+  double step_over = 0;   ///< distance of neighbouring passes
+  double step_down = 0;   ///< greatest distance of levels
+  double angle = 0;       ///< of the passes, as ParallelOptions has it
+  double ramp_angle = 3;  ///< steepest way down into the stock, degrees, above 0 and below 90
+  /// The stock is a block: the part's bounding rectangle and `stock_margin` on all sides, up to `stock_top` (nothing
+  /// given: the part's top).
+  double stock_margin = 0;
+  std::optional<double> stock_top;
+  /// Of the lowest level, of the tip. Nothing given: the part's lowest place and the allowance.
+  std::optional<double> bottom;
+};
+
+/// Roughing by levels: takes a part out of a block of stock. On every level, from the top, the places where the tool
+/// does not touch the part (grown by the allowance) are cut in parallel passes; neighbouring passes make up regions
+/// that are cut without lifting the tool.
+///
+/// A region is entered from outside of the stock if one of its passes gets there, else by a ramp along its first pass.
+/// Regions with no pass longer than the tool's radius, or as long as the ramp needs, are left to finishing and counted.
+/// Above the levels the tool moves at the safe height, which is above the stock. All on lattice points of levels that
+/// are lattice heights: nothing is fitted, moves between the ends of passes are proven free by the same bounds as those
+/// of mill_parallel.
+///
+/// Errors: as mill_parallel; a step down or ramp angle out of its range.
+Result<MilledPath> mill_rough(std::shared_ptr<const Terrain> part, const RoughOptions& options,
+                              const Context& context = {});
 
 }  // namespace krepl

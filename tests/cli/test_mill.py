@@ -141,6 +141,15 @@ class Mill(support.CliTest):
         self.succeed("mill", "part.off", "out.ngc", "--tool", "ball:3", "--scallop", "0.05", "--no-arcs", "--angle", "30", "--verbose")
         self.assertFalse(re.search(r"G[23]\b", self.text("out.ngc")))
 
+    def test_rough(self):
+        self.succeed("mill", "part.off", "out.ngc", *OPTIONS, "--strategy", "rough", "--step-down", "1", "--allowance", "0.3",
+                     "--stock-top", "5")
+        moves = interpret(self.text("out.ngc"))
+        levels = {m[3][2] for m in moves if m[0] == 1 and m[2][2] == m[3][2]}
+        self.assertGreaterEqual(len(levels), 5)
+        for z in levels:
+            self.assertGreaterEqual(z, 0.3)
+
     def test_standard_output(self):
         done = self.succeed("mill", "part.off", "-", *OPTIONS)
         self.assertTrue(done.stdout.startswith("(part.off, parallel by krepl)\n"))
@@ -171,7 +180,7 @@ class Messages(support.CliTest):
         self.refuse("neither --step-over nor --scallop is given; give one of them")
         self.refuse("both --step-over and --scallop are given; give one of them", *step, "--scallop", "0.1")
         self.refuse("tool 'flat:3' is unknown; give --tool ball:DIAMETER", *step, tool=("--tool", "flat:3"))
-        self.refuse("strategy 'spiral' is unknown; give --strategy parallel", *step, "--strategy", "spiral")
+        self.refuse("--strategy 'spiral' is unknown; give one of parallel, rough", *step, "--strategy", "spiral")
         self.refuse("--post 'fanuc' is unknown; give one of linuxcnc, grbl", *step, "--post", "fanuc")
         self.refuse("--angle 'north' is not a finite number; give one", *step, "--angle", "north")
         self.refuse("the safe height 2 is below the highest place of the tool over the part; use at least 4.0002", *step,
@@ -179,6 +188,12 @@ class Messages(support.CliTest):
         self.refuse("the tolerance 0.001 is too small for numbers that are multiples of 0.0001; use at least 0.0016, or more decimals",
                     *step, "--tolerance", "0.001")
         self.refuse("the scallop height 0.01 leaves no room for the tolerance 0.01; use a tolerance of at most 0.008", "--scallop", "0.01")
+
+    def test_options_of_other_strategies(self):
+        step = ("--step-over", "1")
+        self.refuse("--step-down has no meaning for strategy parallel; it belongs to rough", *step, "--step-down", "1")
+        self.refuse("--scallop has no meaning for strategy rough; it belongs to parallel", "--scallop", "1", "--strategy", "rough")
+        self.refuse("--step-down is not given; give the distance of levels", *step, "--strategy", "rough")
 
     def test_bad_input(self):
         self.write("empty.off", "OFF\n0 0 0\n")

@@ -114,8 +114,12 @@ class Programs : public testing::Test {
     const auto milled = mill_parallel(part, o);
     ASSERT_TRUE(milled) << milled.error().text();
     arcs_ += milled->report.arcs;
+    expect_read(milled->path, gcode);
+  }
+
+  void expect_read(const ToolPath& path, const output::GcodeOptions& gcode) {
     const std::string program = (directory_ / "part.ngc").string();
-    const auto lines = output::write_gcode(program, milled->path, gcode);
+    const auto lines = output::write_gcode(program, path, gcode);
     ASSERT_TRUE(lines) << lines.error().text();
     const Interpretation found = interpret(program, directory_);
     EXPECT_TRUE(found.accepted) << found.complaint
@@ -123,7 +127,7 @@ class Programs : public testing::Test {
     EXPECT_NE(found.text.find("PROGRAM_END"), std::string::npos) << found.complaint;
     EXPECT_NE(found.text.find(gcode.inches ? "CANON_UNITS_INCHES" : "CANON_UNITS_MM"), std::string::npos);
     // The two moves to the start come first.
-    const double worst = worst_difference(milled->path, gcode.below_centre, found.moves, 2);
+    const double worst = worst_difference(path, gcode.below_centre, found.moves, 2);
     EXPECT_GE(worst, 0) << "another kind or number of moves";
     EXPECT_LE(worst, 1e-4) << "rs274 prints four decimals";
     moves_ += found.moves.size();
@@ -156,6 +160,15 @@ TEST_F(Programs, AreWhatTheInterpreterDoes) {
     gcode.part_name = "soup (with) umlaut \xc3\xa4", gcode.strategy = "parallel", gcode.tool_name = "ball-nose";
     expect_same(*part, o, gcode);
   }
+  RoughOptions rough;
+  rough.tool.radius = 1.5, rough.step_over = 1, rough.step_down = 1;
+  const auto block = Terrain::from_grid({3, 3, {0, 0}, 5, 5, Terrain::Split::rising}, {0, 0, 0, 0, 3, 0, 0, 0, 1});
+  ASSERT_TRUE(block);
+  const auto roughed = mill_rough(std::make_shared<const Terrain>(*block), rough);
+  ASSERT_TRUE(roughed) << roughed.error().text();
+  output::GcodeOptions gcode;
+  gcode.below_centre = 1.5;
+  expect_read(roughed->path, gcode);
   EXPECT_GT(arcs_, 50u);
   EXPECT_GT(moves_, 1000u);
 }
