@@ -2,7 +2,7 @@
 
 _krepl() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  local verbs="buffer axis rivers offset profile terrain height mill info verify view lab" verb= word
+  local verbs="buffer axis rivers offset profile terrain height mill simulate info verify view lab" verb= word
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case " $verbs " in *" $word "*) verb=$word; break ;; esac
   done
@@ -15,6 +15,7 @@ _krepl() {
     --format)
       local formats="gpkg fgb wkt wkb geojson shp svg dxf"
       [[ $verb == terrain ]] && formats="json gpkg step tif stl ply glb png"
+      [[ $verb == simulate ]] && formats="tif png"
       mapfile -t COMPREPLY < <(compgen -W "$formats" -- "$current"); return ;;
     --engine)
       local engines="auto intervals voronoi sweep"
@@ -35,6 +36,8 @@ _krepl() {
     --post) mapfile -t COMPREPLY < <(compgen -W "linuxcnc grbl" -- "$current"); return ;;
     --control-point) mapfile -t COMPREPLY < <(compgen -W "tip centre" -- "$current"); return ;;
     --tool) mapfile -t COMPREPLY < <(compgen -W "ball:" -- "$current"); return ;;
+    --tool) mapfile -t COMPREPLY < <(compgen -W "ball: flat: bull: cone: taper:" -- "$current"); return ;;
+    --control-point) mapfile -t COMPREPLY < <(compgen -W "tip centre" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "mm cm m km in ft" -- "$current"); return ;;
     --split) mapfile -t COMPREPLY < <(compgen -W "rising falling shorter" -- "$current"); return ;;
     --to-crs) mapfile -t COMPREPLY < <(compgen -W "auto EPSG:" -- "$current"); return ;;
@@ -46,7 +49,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --arc-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit | --step-over | --scallop | --angle | --tolerance | --allowance | --bottom | --feed | --plunge-feed | --spindle | --safe-height | --clearance | --decimals | --tool-number | --step-down | --ramp-angle | --stock-top | --stock-margin) return ;;
+    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --arc-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --stock | --max-rest | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit | --step-over | --scallop | --angle | --tolerance | --allowance | --bottom | --feed | --plunge-feed | --spindle | --safe-height | --clearance | --decimals | --tool-number | --step-down | --ramp-angle | --stock-top | --stock-margin) return ;;
   esac
   local command=("$verb")
   if [[ $verb == lab ]]; then
