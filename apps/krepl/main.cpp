@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   krepl::app::add_profile_verb(program, session);
   krepl::app::add_terrain_verb(program, session);
   krepl::app::add_height_verb(program, session);
+  krepl::app::add_route_verb(program, session);
   krepl::app::add_verify_verb(program, session);
   krepl::app::add_info_verb(program, session);
   krepl::app::add_view_verb(program, session);
