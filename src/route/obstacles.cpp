@@ -1,6 +1,8 @@
 #include "route/obstacles.hpp"
 
 #include <map>
+#include <queue>
+#include <tuple>
 
 namespace krepl::route {
 namespace {
@@ -121,6 +123,30 @@ bool Obstacles::any_within(Point a, Point b, double clearance) const {
     if (segment_distance(a, b, e.a, e.b) < clearance) limit = -1;  // nothing more is visited
   });
   return limit < 0;
+}
+
+void Obstacles::each_by_distance(Point p, const std::function<bool(double, Point, Point)>& visit) const {
+  struct Waiting {
+    double distance;
+    std::size_t level, index;
+    bool operator<(const Waiting& o) const {
+      return std::tie(distance, level, index) > std::tie(o.distance, o.level, o.index);
+    }
+  };
+  if (tree_.empty()) return;
+  std::priority_queue<Waiting> queue;
+  queue.push({0, tree_.top(), 0});
+  while (!queue.empty()) {
+    const Waiting w = queue.top();
+    queue.pop();
+    if (w.level == 0) {
+      const Ends e = ends(w.index);
+      if (!visit(w.distance, e.a, e.b)) return;
+      continue;
+    }
+    const auto [first, last] = tree_.children(w.level, w.index);
+    for (std::size_t i = first; i < last; ++i) queue.push({distance(p, tree_.box(w.level - 1, i)), w.level - 1, i});
+  }
 }
 
 double Obstacles::nearest_to_arc(const ArcShape& arc, double limit) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -32,6 +33,9 @@ class Obstacles {
   double nearest_to_segment(Point a, Point b, double limit) const;
   /// True if some obstacle is nearer to segment ab than `clearance`.
   bool any_within(Point a, Point b, double clearance) const;
+  /// Visits segments and points, their ends given, by growing distance of their boxes from p, until visit(distance, a,
+  /// b) returns false.
+  void each_by_distance(Point p, const std::function<bool(double, Point, Point)>& visit) const;
   double nearest_to_arc(const ArcShape& arc, double limit) const;
 
   /// The feature of a polygon that holds p in its inside (even-odd rule of each feature), if any does.

@@ -3,14 +3,6 @@
 #include <algorithm>
 
 namespace krepl::route {
-namespace {
-
-/// Largest and least of direction x (q - p) over a box, or of the product with any other vector.
-double largest_product(Point v, Point p, const Box& b) {
-  return v.x * ((v.x > 0 ? b.max_x : b.min_x) - p.x) + v.y * ((v.y > 0 ? b.max_y : b.min_y) - p.y);
-}
-
-}  // namespace
 
 TautSearch::TautSearch(const FreeSpace& space, const Obstacles& obstacles, double radius, Slack slack)
     : space_(space),
@@ -60,32 +52,15 @@ std::optional<double> TautSearch::along(Index w, Point normal) const {
   return clockwise(w) ? a.span - at : at;
 }
 
-bool TautSearch::Wedge::misses(const Box& box) const {
-  if (!limited) return false;
-  // Turning counter-clockwise, tangents stay left of the first one and, but for the arc, right of the last one.
-  const Point left = -sense * right(first_direction), beyond = sense * right(last_direction);
-  if (largest_product(left, first, box) < -slack) return true;
-  if (largest_product(beyond, last, box) < -slack - bulge) return true;
-  return forward && largest_product(first_direction, first, box) < -slack;
-}
-
-TautSearch::Wedge TautSearch::wedge(const Arrival& from) const {
-  Wedge w;
-  if (from.wheel == none || arc(from.wheel).full) return w;
-  const FreeArc& a = arc(from.wheel);
-  const double ahead = a.span - from.at, s = sense(from.wheel);
-  if (ahead > 3) return w;
-  const double last = s > 0 ? a.from + a.span : a.from, first = last - s * ahead;
-  const auto normal = [](double angle) { return Point{std::cos(angle), std::sin(angle)}; };
-  w.limited = true;
-  w.forward = ahead < 1.5;
-  w.bulge = radius_ * (1 - std::cos(ahead));
-  w.sense = s;
-  w.first = a.center + radius_ * normal(first), w.last = a.center + radius_ * normal(last);
-  w.first_direction = -s * right(normal(first)), w.last_direction = -s * right(normal(last));
-  const double reach = obstacles_.network().extent() + radius_ + length(to_) + length(from_);
-  w.slack = 4 * slack_.tolerance + 4 * angle_slack_ * reach;
-  return w;
+/// Made at the first arrival; where a string may leave ahead of later ones is part of it.
+const Horizon& TautSearch::horizon(Index w) {
+  auto& made = horizons_[w];
+  if (!made) {
+    const bool place = w == none;
+    made = std::make_unique<Horizon>(obstacles_, wheel(w), place ? 0 : arc(w).from, place ? turn : arc(w).span, radius_,
+                                     slack_.tolerance);
+  }
+  return *made;
 }
 
 /// The tangent from what is ahead of an arrival to a wheel, if both ends lie on their arcs.
@@ -93,10 +68,11 @@ std::optional<TautSearch::Link> TautSearch::link(const Arrival& from, Index targ
   const Wheel a = wheel(from.wheel), b = wheel(target);
   const auto t = tangent(a, b, slack_.tolerance);
   if (!t) return std::nullopt;
-  Link l{*t, 0, 0, 0};
+  Link l{*t, 0, 0, 0, std::atan2(t->direction.y, t->direction.x)};
   if (from.wheel != none) {
     const auto leaving = along(from.wheel, sense(from.wheel) * right(t->direction));
     if (!leaving) return std::nullopt;
+    l.leaving -= sense(from.wheel) * (turn / 4);
     l.sweep = *leaving - from.at;
     if (arc(from.wheel).full) {
       l.sweep = positive_angle(l.sweep);
@@ -141,6 +117,7 @@ void TautSearch::push_tangent(Index arrival, Index target) {
   const auto l = link(arrivals_[arrival], target);
   if (!l) return;
   ++counters_.tangents;
+  if (horizon(arrivals_[arrival].wheel).hides(l->leaving, l->tangent.length - slack_.tolerance)) return;
   push(l->cost + distance(l->tangent.end, to_), arrival, target, -1);
 }
 
@@ -148,7 +125,6 @@ void TautSearch::arrive(const Arrival& arrival) {
   ++counters_.arrivals;
   const Index a = Index(arrivals_.size());
   arrivals_.push_back(arrival);
-  wedges_.push_back(wedge(arrival));
   push_tangent(a, goal());
   if (!tree_.empty()) push(arrival.cost + distance(arrival.end, to_), a, 0, int(tree_.top()));
 }
@@ -161,10 +137,11 @@ void TautSearch::open(const Entry& entry) {
     return;
   }
   const Arrival& from = arrivals_[entry.arrival];
+  const Horizon& seen = horizon(from.wheel);
   const auto [first, last] = tree_.children(std::size_t(entry.level), entry.target);
   for (std::size_t i = first; i < last; ++i) {
     const Box& box = tree_.box(std::size_t(entry.level) - 1, i);
-    if (wedges_[entry.arrival].misses(box)) continue;
+    if (seen.hides(box)) continue;
     push(from.cost + distance(from.end, box) + distance(to_, box), entry.arrival, Index(i), entry.level - 1);
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <queue>
 #include <unordered_map>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "krepl/error.hpp"
 #include "krepl/route.hpp"
 #include "route/free_space.hpp"
+#include "route/horizon.hpp"
 #include "route/tangent.hpp"
 
 namespace krepl::route {
@@ -57,17 +59,10 @@ class TautSearch {
     std::int8_t level;  ///< of the node; -1: a tangent
     bool operator<(const Entry& o) const { return bound != o.bound ? bound > o.bound : order > o.order; }
   };
-  /// Where tangents ahead of an arrival can go.
-  struct Wedge {
-    bool limited = false, forward = false;
-    double sense = 1;
-    Point first, first_direction, last, last_direction;
-    double slack = 0, bulge = 0;
-    bool misses(const Box& box) const;
-  };
   struct Link {
     Tangent tangent;
     double sweep, at, cost;
+    double leaving;  ///< angle at which it leaves
   };
 
   Index goal() const { return Index(2 * space_.arcs().size()); }
@@ -77,7 +72,7 @@ class TautSearch {
   Wheel wheel(Index w) const;
   std::optional<double> along(Index wheel, Point normal) const;
   std::vector<Box> boxes() const;
-  Wedge wedge(const Arrival& from) const;
+  const Horizon& horizon(Index wheel);
   std::optional<Link> link(const Arrival& from, Index target) const;
   bool visible(const Arrival& from, Index target, const Tangent& tangent);
   bool dominated(Index wheel, double at, double cost) const;
@@ -96,7 +91,7 @@ class TautSearch {
   PackedTree tree_;
   Point from_, to_;
   std::vector<Arrival> arrivals_;
-  std::vector<Wedge> wedges_;
+  std::unordered_map<Index, std::unique_ptr<Horizon>> horizons_;  // by directed arc
   struct Reached {
     double at, cost;
   };
