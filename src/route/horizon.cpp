@@ -73,7 +73,7 @@ void Horizon::block(Point a, Point b) {
 
 bool Horizon::hides(double angle, double length) const {
   bool hidden = true;
-  const double pad = 1e-12;
+  const double pad = 2 * slack_ / radius_ + 1e-13;  // ways may leave that much beyond the range
   each_range(angle - pad, 2 * pad, [&](double begin, double end) {
     if (end < 0 || begin > bins) return;
     const int first = std::clamp(int(std::floor(begin)), 0, bins - 1),
