@@ -18,15 +18,15 @@ namespace {
 
 using Written = Result<ZoneFileReport>;
 
-/// The piece as segments and arcs: parabolas become chords of equal parameter steps, which deviate most in the middle, by
-/// |start - 2 control + end| / (4 n^2).
+/// The piece as segments and arcs: parabolas become chords of equal parameter steps, which deviate most in the middle,
+/// by |start - 2 control + end| / (4 n^2).
 void append_curves(const Route::Piece& piece, double max_error, std::vector<CurvePiece>& out, double& deviation) {
   if (piece.kind != Route::Kind::parabola) {
     out.push_back({piece.kind == Route::Kind::arc, piece.clockwise, piece.start, piece.end, piece.center});
     return;
   }
-  const double bend = std::hypot(piece.start.x - 2 * piece.control.x + piece.end.x,
-                                 piece.start.y - 2 * piece.control.y + piece.end.y);
+  const double bend =
+      std::hypot(piece.start.x - 2 * piece.control.x + piece.end.x, piece.start.y - 2 * piece.control.y + piece.end.y);
   const double most = 1 << 16, steps = std::clamp(std::ceil(std::sqrt(bend / (4 * max_error))), 1.0, most);
   Point before = piece.start;
   for (double i = 1; i <= steps; ++i) {
@@ -55,12 +55,15 @@ Written write_csv(const std::string& path, const Route& route, const Network& ne
   const auto put = [&](std::string_view s) { text.append(s.data(), s.data() + s.size()); };
   put("kind,x0,y0,x1,y1,cx,cy,sense,vertex,feature,length,clearance\n");
   for (const Route::Piece& p : route.pieces) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},", kind_name(p.kind), p.start.x, p.start.y, p.end.x, p.end.y);
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},", kind_name(p.kind), p.start.x, p.start.y, p.end.x,
+                   p.end.y);
     if (p.kind == Route::Kind::line)
       put(",,,,,");
     else
       fmt::format_to(std::back_inserter(text), "{},{},{},", p.center.x, p.center.y,
-                     p.kind == Route::Kind::parabola ? "" : p.clockwise ? "cw" : "ccw");
+                     p.kind == Route::Kind::parabola ? ""
+                     : p.clockwise                   ? "cw"
+                                                     : "ccw");
     if (p.kind != Route::Kind::line && p.vertex == Route::none) put(",,");
     if (p.kind != Route::Kind::line && p.vertex != Route::none)
       fmt::format_to(std::back_inserter(text), "{},{},", p.vertex, feature_of(network, p));
@@ -102,7 +105,10 @@ Written write_dxf_route(const std::string& path, const std::vector<CurvePiece>& 
 class RouteLayers {
  public:
   RouteLayers(const Route& route, const Network& network, const std::vector<CurvePiece>& pieces, double max_error)
-      : route_(route), network_(network), pieces_(pieces), max_error_(max_error),
+      : route_(route),
+        network_(network),
+        pieces_(pieces),
+        max_error_(max_error),
         linearizer_(route.turn_radius > 0 ? route.turn_radius : 1, max_error) {}
 
   Status write(OgrDataset& dataset) {
@@ -185,8 +191,9 @@ Result<RouteFormat> find_route_format(const std::string& path, const std::string
   return RouteFormat{false, *format};
 }
 
-Result<ZoneFileReport> write_route(const std::string& path, const Route& route, const Network& network, const Zone* zone,
-                                   const RouteFormat& format, const RouteFileOptions& options, const Context& context) {
+Result<ZoneFileReport> write_route(const std::string& path, const Route& route, const Network& network,
+                                   const Zone* zone, const RouteFormat& format, const RouteFileOptions& options,
+                                   const Context& context) {
   const double max_error = options.max_error > 0 ? options.max_error : route.radius / 1000;
   if (max_error < Linearizer::finest(std::max(route.radius, route.turn_radius)))
     return Error{ErrorCode::usage, "--max-error is too small for the radius", "", "give at least 1e-12 of the radius"};

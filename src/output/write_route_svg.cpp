@@ -22,7 +22,8 @@ Frame frame_of(const Route& route, const Network& network) {
   double west = 1e300, east = -west, south = west, north = -west;
   const auto add = [&](double x, double y) {
     const double r = route.radius;
-    west = std::min(west, x - r), east = std::max(east, x + r), south = std::min(south, y - r), north = std::max(north, y + r);
+    west = std::min(west, x - r), east = std::max(east, x + r), south = std::min(south, y - r),
+    north = std::max(north, y + r);
   };
   for (const Point v : network.vertices()) add(v.x, v.y);
   for (const Route::Piece& piece : route.pieces) {
@@ -91,7 +92,8 @@ void put_obstacles(SvgText& text, OutputStream& stream, const Network& network) 
 }
 
 void put_route(SvgText& text, const Route& route, Point origin) {
-  text.format("<g class=\"route\" data-length=\"{}\" data-clearance=\"{}\">\n<path d=\"", route.length, route.clearance);
+  text.format("<g class=\"route\" data-length=\"{}\" data-clearance=\"{}\">\n<path d=\"", route.length,
+              route.clearance);
   text.put_absolute('M', route.pieces.front().start);
   for (const Route::Piece& piece : route.pieces) {
     if (piece.kind == Route::Kind::parabola) {

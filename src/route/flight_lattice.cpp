@@ -59,7 +59,7 @@ Status FlightLattice::survey(const Context& context) {
   std::vector<DropCutter::Contact> contacts(count);
   // What covers half of any move, one level up or down included.
   const double range = cutter_.terrain().highest().z - cutter_.terrain().lowest().z + 2 * cutter_.radius();
-  rise_ = std::isinf(rules_.max_slope) ? rules_.step / 2 : rules_.max_slope * rules_.step;
+  rise_ = std::isinf(rules_.max_slope) ? rules_.step / 4 : rules_.max_slope * rules_.step;
   rise_ = std::max(rise_, range / double(std::isinf(rules_.max_slope) ? most_levels : most_limited_levels));
   const double half_move = 0.5 * std::hypot(std::sqrt(5.0) * rules_.step, rise_);
   const Result<DropCutter> covering = cutter_.with_radius(std::hypot(cutter_.radius(), half_move));
