@@ -2,7 +2,7 @@
 
 _krepl() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  local verbs="buffer axis rivers offset profile terrain height info verify view lab" verb= word
+  local verbs="buffer axis rivers offset profile terrain height route info verify view lab" verb= word
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case " $verbs " in *" $word "*) verb=$word; break ;; esac
   done
@@ -22,6 +22,8 @@ _krepl() {
       mapfile -t COMPREPLY < <(compgen -W "$engines" -- "$current"); return ;;
     --zones) mapfile -t COMPREPLY < <(compgen -W "sub-river stem whole" -- "$current"); return ;;
     --outlet) mapfile -t COMPREPLY < <(compgen -W "guess" -- "$current"); return ;;
+    --prefer) mapfile -t COMPREPLY < <(compgen -W "length clearance" -- "$current"); return ;;
+    --minimise) mapfile -t COMPREPLY < <(compgen -W "length climb" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "mm cm m km in ft" -- "$current"); return ;;
     --split) mapfile -t COMPREPLY < <(compgen -W "rising falling shorter" -- "$current"); return ;;
     --to-crs) mapfile -t COMPREPLY < <(compgen -W "auto EPSG:" -- "$current"); return ;;
@@ -33,7 +35,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit) return ;;
+    --radius | --distance | --from | --to | --ceiling | --max-slope | --step | --snap | --grid | --flow-field | --where | --max-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit) return ;;
   esac
   local command=("$verb")
   if [[ $verb == lab ]]; then

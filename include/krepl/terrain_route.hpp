@@ -30,7 +30,7 @@ struct TerrainRouteOptions {
   double ceiling = std::numeric_limits<double>::infinity();    ///< no part of the route is higher (the ball's centre)
   double max_slope = std::numeric_limits<double>::infinity();  ///< rise over horizontal way, up and down; > 0
   Minimise minimise = Minimise::length;
-  /// Distance of the lattice that is searched, > 0; 0: so that it has some 60 000 places.
+  /// Distance of the lattice that is searched, > 0; 0: so that it has some 10 000 places.
   double step = 0;
 };
 

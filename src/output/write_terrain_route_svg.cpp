@@ -19,7 +19,7 @@ class Plan {
   explicit Plan(const TerrainPicture& picture) : picture_(picture) {
     const double across = picture.high.x - picture.low.x, up = picture.high.y - picture.low.y;
     scale_ = width / std::max(across, 1e-9 * up);
-    if (up * scale_ > 1.5 * width) scale_ = 1.5 * width / up;
+    if (up * scale_ > width) scale_ = width / up;
     height_ = up * scale_;
     cell_ = std::max(across, up) / columns;
   }

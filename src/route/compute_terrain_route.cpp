@@ -51,12 +51,12 @@ Result<FlightEnd> end_of(const DropCutter& cutter, const TerrainRouteEnd& end, d
   return FlightEnd{local, std::max(height, contact.height), !end.height.has_value()};
 }
 
-/// So that the lattice has some 60 000 places, and no more than four to the radius where that is fewer.
+/// So that the lattice has some 10 000 places, and no more than four to the radius where that is fewer.
 double default_step(const DropCutter& cutter) {
   const Point3 low = cutter.terrain().lowest(), high = cutter.terrain().highest();
   const double area =
       std::max(high.x - low.x, 1e-9 * (high.y - low.y)) * std::max(high.y - low.y, 1e-9 * (high.x - low.x));
-  return std::max(std::sqrt(area / 60000), cutter.radius() / 4);
+  return std::max(std::sqrt(area / 10000), cutter.radius() / 4);
 }
 
 void measure(TerrainRoute& route, const FlightRules& rules) {

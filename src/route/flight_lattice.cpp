@@ -59,7 +59,7 @@ Status FlightLattice::survey(const Context& context) {
   std::vector<DropCutter::Contact> contacts(count);
   // What covers half of any move, one level up or down included.
   const double range = cutter_.terrain().highest().z - cutter_.terrain().lowest().z + 2 * cutter_.radius();
-  rise_ = std::isinf(rules_.max_slope) ? rules_.step / 4 : rules_.max_slope * rules_.step;
+  rise_ = std::isinf(rules_.max_slope) ? rules_.step / 2 : rules_.max_slope * rules_.step;
   rise_ = std::max(rise_, range / double(std::isinf(rules_.max_slope) ? most_levels : most_limited_levels));
   const double half_move = 0.5 * std::hypot(std::sqrt(5.0) * rules_.step, rise_);
   const Result<DropCutter> covering = cutter_.with_radius(std::hypot(cutter_.radius(), half_move));
@@ -105,18 +105,18 @@ bool FlightLattice::allowed(std::size_t column, std::size_t level) const {
   return lowest_ + double(level) * rise_ >= floor;
 }
 
-/// Each half of a move lies in the covering ball about its end; where one of these is not free, the move is proven
-/// itself.
-bool FlightLattice::proven(Node a, Node b) {
+/// Each half of a move lies in the covering ball about its end.
+bool FlightLattice::clearly_free(Node a, Node b) const {
   const std::size_t p = a / levels_, q = b / levels_;
-  const Point3 from = point(a), to = point(b);
   if (p == q) return true;
-  if (!is_end(p) && !is_end(q) && from.z >= double(clear_[p]) && to.z >= double(clear_[q])) return true;
-  return proof_.free(from, to);
+  return !is_end(p) && !is_end(q) && point(a).z >= double(clear_[p]) && point(b).z >= double(clear_[q]);
 }
 
+/// A way that is no cheaper than one that is proven need not wait; a cheaper one waits until it comes up before it is proven.
 void FlightLattice::push(Node node, double cost, Node parent) {
-  if (settled_.contains(node)) return;
+  const auto known = known_.find(node);
+  if (known != known_.end() && (known->second.settled || known->second.cost <= cost)) return;
+  if (parent == none || clearly_free(parent, node)) known_[node] = {cost, parent, false};
   const Point3 goal{rules_.to.place.x, rules_.to.place.y, rules_.to.height};
   queue_.push({cost + rules_.least_cost(point(node), goal), cost, node, parent});
 }
@@ -176,16 +176,18 @@ Result<std::vector<Point3>> FlightLattice::search(const Context& context) {
     if (steps % 1024 == 0 && context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
     const Entry entry = queue_.top();
     queue_.pop();
-    if (settled_.contains(entry.node)) continue;
-    if (entry.parent != none && !proven(entry.parent, entry.node)) continue;
-    settled_[entry.node] = {entry.cost, entry.parent};
-    if (settled_.size() > most_nodes)
+    const auto known = known_.find(entry.node);
+    if (known != known_.end() && (known->second.settled || known->second.cost < entry.cost)) continue;
+    if (known == known_.end() || known->second.cost > entry.cost) {
+      if (!proof_.free(point(entry.parent), point(entry.node))) continue;
+    }
+    known_[entry.node] = {entry.cost, entry.parent, true};
+    if (++counters_.visited > most_nodes)
       return Error{ErrorCode::computation, "the search has visited ten million nodes", "", "use a larger --step"};
-    counters_.visited = settled_.size();
     if (entry.node / levels_ == goal_column()) {
       std::vector<Point3> points;
       if (point(entry.node) != to) points.push_back(to);
-      for (Node n = entry.node; n != none; n = settled_[n].parent) points.push_back(point(n));
+      for (Node n = entry.node; n != none; n = known_[n].parent) points.push_back(point(n));
       if (points.back() != from) points.push_back(from);
       std::reverse(points.begin(), points.end());
       return points;

@@ -47,9 +47,10 @@ class FlightLattice {
     Node node, parent;
     bool operator<(const Entry& o) const { return bound != o.bound ? bound > o.bound : node > o.node; }
   };
-  struct Settled {
-    double cost;
+  struct Known {
+    double cost;  ///< of a way that is proven
     Node parent;
+    bool settled;
   };
   static constexpr Node none = ~Node{0};
 
@@ -61,7 +62,7 @@ class FlightLattice {
   Point3 point(Node node) const;
   bool fixed(std::size_t column) const { return is_end(column) && !end_of(column).lifts; }
   bool allowed(std::size_t column, std::size_t level) const;
-  bool proven(Node a, Node b);
+  bool clearly_free(Node a, Node b) const;
   void push(Node node, double cost, Node parent);
   void push_all(std::size_t column, Node parent, double cost);
   void expand(Node node, double cost);
@@ -77,7 +78,7 @@ class FlightLattice {
   std::vector<float> floor_, clear_;  // rounded up: of the ball, and of one that covers half of any move
   std::vector<std::vector<std::size_t>> around_end_;
   std::priority_queue<Entry> queue_;
-  std::unordered_map<Node, Settled> settled_;
+  std::unordered_map<Node, Known> known_;
 };
 
 }  // namespace krepl::route
