@@ -82,7 +82,7 @@ struct Route {
 ///
 /// Search best first (A*) over tangents drawn on demand: a node of the tree over arcs is opened only if a route through
 /// it could be shorter than those at hand. Expected cost far below the O(n^2 log n) of the whole visibility graph,
-/// which is also the worst case. [Pocchiola and Vegter 1996 for what such graphs are; Hart, Nilsson and Raphael 1968.]
+/// which is also the worst case. [pocchiola-vegter1996 for what such graphs are; hart-nilsson-raphael1968.]
 Result<Route> compute_route(std::shared_ptr<const Network> network, const RouteOptions& options,
                             const Context& context = {});
 
