@@ -2,7 +2,7 @@
 
 _krepl() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  local verbs="buffer axis rivers offset profile terrain height mill simulate info verify view lab" verb= word
+  local verbs="buffer axis rivers offset profile terrain height mill simulate route info verify view lab" verb= word
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case " $verbs " in *" $word "*) verb=$word; break ;; esac
   done
@@ -38,6 +38,8 @@ _krepl() {
     --tool) mapfile -t COMPREPLY < <(compgen -W "ball:" -- "$current"); return ;;
     --tool) mapfile -t COMPREPLY < <(compgen -W "ball: flat: bull: cone: taper:" -- "$current"); return ;;
     --control-point) mapfile -t COMPREPLY < <(compgen -W "tip centre" -- "$current"); return ;;
+    --prefer) mapfile -t COMPREPLY < <(compgen -W "length clearance" -- "$current"); return ;;
+    --minimise) mapfile -t COMPREPLY < <(compgen -W "length climb" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "mm cm m km in ft" -- "$current"); return ;;
     --split) mapfile -t COMPREPLY < <(compgen -W "rising falling shorter" -- "$current"); return ;;
     --to-crs) mapfile -t COMPREPLY < <(compgen -W "auto EPSG:" -- "$current"); return ;;
@@ -49,7 +51,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --arc-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --stock | --max-rest | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit | --step-over | --scallop | --angle | --tolerance | --allowance | --bottom | --feed | --plunge-feed | --spindle | --safe-height | --clearance | --decimals | --tool-number | --step-down | --ramp-angle | --stock-top | --stock-margin) return ;;
+    --radius | --distance | --from | --to | --ceiling | --max-slope | --step | --snap | --grid | --flow-field | --where | --max-error | --arc-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --stock | --max-rest | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit | --step-over | --scallop | --angle | --tolerance | --allowance | --bottom | --feed | --plunge-feed | --spindle | --safe-height | --clearance | --decimals | --tool-number | --step-down | --ramp-angle | --stock-top | --stock-margin) return ;;
   esac
   local command=("$verb")
   if [[ $verb == lab ]]; then

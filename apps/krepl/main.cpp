@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   krepl::app::add_contour_verb(program, session);
   krepl::app::add_section_verb(program, session);
   krepl::app::add_mill_verb(program, session);
+  krepl::app::add_route_verb(program, session);
   krepl::app::add_verify_verb(program, session);
   krepl::app::add_info_verb(program, session);
   krepl::app::add_view_verb(program, session);

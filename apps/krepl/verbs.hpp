@@ -95,6 +95,7 @@ void add_profile_verb(CLI::App& program, Session& session);
 void add_rivers_verb(CLI::App& program, Session& session);
 void add_section_verb(CLI::App& program, Session& session);
 void add_simulate_verb(CLI::App& program, Session& session);
+void add_route_verb(CLI::App& program, Session& session);
 void add_terrain_verb(CLI::App& program, Session& session);
 void add_verify_verb(CLI::App& program, Session& session);
 void add_view_verb(CLI::App& program, Session& session);
