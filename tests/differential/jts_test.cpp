@@ -12,6 +12,7 @@
 
 #include "jts_cases.hpp"
 #include "krepl/offset.hpp"
+#include "krepl/sweep.hpp"
 #include "krepl/voronoi.hpp"
 #include "output/linear.hpp"
 #include "support/environment.hpp"
@@ -37,6 +38,8 @@ const Engine engines[] = {
        if (!diagram) return diagram.error();
        return diagram->zone({radius});
      }},
+    {"sweep",
+     [](std::shared_ptr<const Network> network, double radius) { return compute_zone_by_sweep(network, {radius}); }},
 };
 
 /// GEOS only measures here: distances between boundaries, and areas of differences.
