@@ -36,7 +36,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --stock | --max-rest | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit) return ;;
+    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --stock | --before | --max-rest | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit) return ;;
   esac
   local command=("$verb")
   if [[ $verb == lab ]]; then
