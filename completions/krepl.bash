@@ -51,7 +51,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --distance | --from | --to | --ceiling | --max-slope | --step | --snap | --grid | --flow-field | --where | --max-error | --arc-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --stock | --max-rest | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit | --step-over | --scallop | --angle | --tolerance | --allowance | --bottom | --feed | --plunge-feed | --spindle | --safe-height | --clearance | --decimals | --tool-number | --step-down | --ramp-angle | --stock-top | --stock-margin) return ;;
+    --radius | --distance | --from | --to | --ceiling | --max-slope | --step | --snap | --grid | --flow-field | --where | --max-error | --arc-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --stock | --before | --max-rest | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit | --step-over | --scallop | --angle | --tolerance | --allowance | --bottom | --feed | --plunge-feed | --spindle | --safe-height | --clearance | --decimals | --tool-number | --step-down | --ramp-angle | --stock-top | --stock-margin) return ;;
   esac
   local command=("$verb")
   if [[ $verb == lab ]]; then

@@ -19,6 +19,7 @@ namespace {
 
 struct SimulateOptions {
   TerrainOptions terrain;
+  std::vector<std::string> before;
   std::string path, tool, stock, cell, unit, control_point, output, format, rest;
 };
 
@@ -125,6 +126,40 @@ std::optional<Error> fault_of(const Simulation& simulation, const input::GCodeFi
   return std::nullopt;
 }
 
+/// A program with its tool.
+struct Program {
+  std::string name;
+  Cutter cutter;
+  input::GCodeFile file;
+};
+
+/// Those of --before in their order, then PATH. Errors name the file.
+Result<std::vector<Program>> read_programs(const SimulateOptions& options, const Asked& asked, Session& session) {
+  std::vector<Program> programs;
+  const auto read = [&](const std::string& path, const Cutter& cutter) -> Status {
+    Result<input::GCodeFile> file = input::read_gcode(path, asked.millimetres, session.context("reading"));
+    if (!file) {
+      Error error = file.error();
+      error.what = input_name(path) + ": " + error.what;
+      return error;
+    }
+    for (const std::string& note : file->notes) session.note(input_name(path), note);
+    lift(file->path, cutter, asked.centre);
+    programs.push_back({input_name(path), cutter, std::move(*file)});
+    return std::monostate{};
+  };
+  for (const std::string& text : options.before) {
+    const std::size_t comma = text.rfind(',');
+    if (comma == std::string::npos)
+      return Error{ErrorCode::usage, "--before '" + text + "' is not PATH,TOOL", "", "as rough.ngc,flat:10"};
+    const Result<Cutter> cutter = Cutter::parse(std::string_view(text).substr(comma + 1));
+    if (!cutter) return cutter.error();
+    if (Status done = read(text.substr(0, comma), *cutter); !done) return done.error();
+  }
+  if (Status done = read(options.path, asked.cutter); !done) return done.error();
+  return programs;
+}
+
 int run_simulate(const SimulateOptions& options, Session& session) {
   const Stopwatch total;
   const Result<Asked> asked = app::asked(options);
@@ -140,28 +175,34 @@ int run_simulate(const SimulateOptions& options, Session& session) {
     if (Status target = check_target(options.output, {request->path, options.path}); !target)
       return session.fail(options.output, target.error());
   }
-  Result<input::GCodeFile> path = input::read_gcode(options.path, asked->millimetres, session.context("reading"));
-  if (!path) return session.fail(input_name(options.path), path.error());
-  for (const std::string& note : path->notes) session.note(input_name(options.path), note);
+  Result<std::vector<Program>> programs = read_programs(options, *asked, session);
+  if (!programs) return session.fail("", programs.error());
   const Result<input::TerrainFile> part = input::read_terrain(*request, session.context("reading"));
   if (!part) return session.fail(options.terrain.name(), part.error());
   tell_terrain(*part, options.terrain.name(), total.seconds(), session);
 
-  lift(path->path, asked->cutter, asked->centre);
-  const Stopwatch cutting;
-  const Result<Simulation> simulation =
-      Simulation::run(path->path, *part->terrain, asked->cutter, asked->stock, session.context("cutting"));
-  session.finish_progress();
-  if (!simulation) return session.fail(input_name(options.path), simulation.error());
-  session.detail(fmt::format("cutting    {:.3f} s", cutting.seconds()));
+  std::optional<Simulation> block;
+  int status = 0;
+  for (const Program& program : *programs) {
+    const Stopwatch cutting;
+    Result<Simulation> simulation = Simulation::run(program.file.path, *part->terrain, program.cutter, asked->stock,
+                                                    session.context("cutting"), block ? &*block : nullptr);
+    session.finish_progress();
+    if (!simulation) return session.fail(program.name, simulation.error());
+    session.detail(fmt::format("cutting    {:.3f} s", cutting.seconds()));
+    if (programs->size() > 1) session.summary(fmt::format("{} with {}", program.name, program.cutter.text()));
+    tell(*simulation, program.file, session);
+    const bool last = &program == &programs->back();
+    const std::optional<Error> fault = fault_of(*simulation, program.file, last ? asked->largest_rest : 0);
+    if (fault) status = session.fail(program.name, *fault);
+    block = std::move(*simulation);
+  }
   if (!options.output.empty()) {
-    output::SimulationFileOptions file{options.format, part->crs, asked->largest_rest};
-    if (Status written = output::write_simulation(options.output, *simulation, file); !written)
+    const output::SimulationFileOptions file{options.format, part->crs, asked->largest_rest};
+    if (Status written = output::write_simulation(options.output, *block, file); !written)
       return session.fail(options.output, written.error());
   }
-  tell(*simulation, *path, session);
-  const std::optional<Error> fault = fault_of(*simulation, *path, asked->largest_rest);
-  return fault ? session.fail(input_name(options.path), *fault) : 0;
+  return status;
 }
 
 }  // namespace
@@ -176,6 +217,9 @@ void add_simulate_verb(CLI::App& program, Session& session) {
                    "Cutter: ball:D, flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE or taper:D:ANGLE:TIP_RADIUS")
       ->required()
       ->type_name("TOOL");
+  verb->add_option("--before", options->before,
+                   "Another path with its tool, to go before PATH in the same block (may be repeated)")
+      ->type_name("PATH,TOOL");
   verb->add_option("--stock", options->stock,
                    "Block: how far it reaches beyond the part, and the height of its top (default: 0, the part's own)")
       ->type_name("MARGIN[,TOP]");

@@ -57,11 +57,14 @@ class Simulation {
   };
 
   /// `path` in the coordinates of the part, its control point as ToolPath has it for this cutter.
+  /// `before`: what another path has left of the same block, to go on with; null: the whole block.
   /// Errors: cell or margin out of range, a top that is not finite or below the part's lowest point, more than 2^31
-  /// dexels (usage); a move with coordinates that are not finite (input); cancelled. Time: dexels below the tool,
-  /// summed over all moves, some 50 ns each on one core, less where the tool is above what is left; 24 bytes a dexel.
+  /// dexels (usage); `before` of another block (usage); a move with coordinates that are not finite (input); cancelled.
+  /// Time: dexels below the tool, summed over all moves, some 50 ns each on one core, less where the tool is above what
+  /// is left; 24 bytes a dexel.
   static Result<Simulation> run(const ToolPath& path, const Terrain& part, const Cutter& cutter,
-                                const StockOptions& stock, const Context& context = {});
+                                const StockOptions& stock, const Context& context = {},
+                                const Simulation* before = nullptr);
 
   const Report& report() const { return report_; }
   std::size_t columns() const { return columns_; }

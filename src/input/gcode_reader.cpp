@@ -16,7 +16,7 @@ constexpr double inch = 25.4;
 constexpr double arc_slack_mm = 0.005, arc_slack_ratio = 1e-3;
 
 /// G and M words by ten times their number.
-constexpr int ignored_g[] = {400, 490, 540, 610, 611, 640, 940, 970, 980, 990};
+constexpr int ignored_g[] = {400, 430 /* the offset is taken as set right */, 490, 540, 610, 611, 640, 940, 970, 980, 990};
 constexpr int ignored_m[] = {0, 10, 30, 40, 50, 60, 70, 80, 90, 480, 490};
 
 /// -1 for numbers that are no code.
@@ -73,7 +73,7 @@ class Interpreter {
   std::array<std::optional<double>, 3> position_;
   double feed_ = 0;
   std::optional<double> tool_;
-  bool noted_offset_ = false, noted_dwell_ = false, noted_blend_ = false;
+  bool noted_dwell_ = false, noted_blend_ = false;
 };
 
 Status Interpreter::take_g(double value, Line& line) {
@@ -109,9 +109,6 @@ Status Interpreter::take_g(double value, Line& line) {
       return std::monostate{};
     case 210:
       set_unit(1);
-      return std::monostate{};
-    case 430:
-      note_once(noted_offset_, "tool length offsets are taken as set right");
       return std::monostate{};
     case 800:
       motion_.reset();

@@ -172,7 +172,7 @@ void measure_path(const ToolPath& path, Simulation::Report& report) {
 }  // namespace
 
 Result<Simulation> Simulation::run(const ToolPath& path, const Terrain& part, const Cutter& cutter,
-                                   const StockOptions& stock, const Context& context) {
+                                   const StockOptions& stock, const Context& context, const Simulation* before) {
   if (Status checked = check_stock(stock, part); !checked) return checked.error();
   if (Status checked = check_path(path); !checked) return checked.error();
   const Point3 origin = part.origin(), low = part.lowest(), high = part.highest();
@@ -197,6 +197,14 @@ Result<Simulation> Simulation::run(const ToolPath& path, const Terrain& part, co
   s.tolerance_ = rounding_of_scale * scale + (pieces.size() > path.moves.size() ? s.arc_error_ : 0);
   s.bottom_ = low.z, s.top_ = std::isnan(stock.top) ? high.z : stock.top - origin.z;
   s.left_.assign(dexels.columns * dexels.rows, s.top_);
+  if (before != nullptr) {
+    const bool same = before->columns_ == s.columns_ && before->rows_ == s.rows_ && before->cell_ == s.cell_ &&
+                      before->top_ == s.top_ + origin.z && before->bottom_ == s.bottom_ + origin.z;
+    if (!same)
+      return Error{ErrorCode::usage, "the simulation to go on with is of another block", "", "give the same stock"};
+    for (std::size_t d = 0; d < s.left_.size(); ++d)
+      s.left_[d] = std::clamp(before->left_[d] - origin.z, s.bottom_, s.top_);
+  }
   s.gouge_.assign(s.left_.size(), 0);
   s.part_ = simulate::part_heights(part, dexels, context);
 

@@ -75,6 +75,11 @@ class DropCutter::Hierarchy {
     tree.run(search);
     return end(tree, search, trace);
   }
+  /// A ball, whatever the cutter is.
+  template <class Tree>
+  Contact touch(const Tree& tree, Point place, double radius, Trace& trace) const {
+    return touch(tree, drop::ball_over(place, radius), trace);
+  }
 
  private:
   const Terrain& terrain_;

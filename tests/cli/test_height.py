@@ -246,9 +246,9 @@ class Height(support.CliTest):
                  "taper:2:60:0.25": lambda r: (0.25 - math.sqrt(0.0625 - r * r) if r < 0.25 * math.cos(math.radians(30))
                                                else slope * r - 0.25)}
         self.write("t.asc", grid(ROWS, corner=(0, 0)))
-        places = [(1.0 + 0.61 * i, 1.2 + 0.57 * j) for i in range(8) for j in range(7)]
+        places = [(1.0 + 0.97 * i, 1.2 + 0.83 * j) for i in range(5) for j in range(5)]
         self.write("at.csv", "x,y\n" + "".join(f"{x},{y}\n" for x, y in places))
-        n = 24
+        n = 16
         samples = [tuple((a * i + b * j + c * (n - i - j)) / n for a, b, c in zip(*t))
                    for t in triangles(ROWS, (0, 0)) for i in range(n + 1) for j in range(n + 1 - i)]
         for tool, profile in tools.items():
@@ -258,7 +258,7 @@ class Height(support.CliTest):
                 best = max(z - profile(r) for z, r in near if r <= 1)
                 with self.subTest(tool=tool, at=(x, y)):
                     self.assertLessEqual(best, float(row["h"]) + 1e-9)
-                    self.assertGreater(best, float(row["h"]) - 0.5)  # the summit falls by 8 a unit
+                    self.assertGreater(best, float(row["h"]) - 0.6)  # the summit falls by 8 a unit
                     q = (float(row["px"]), float(row["py"]), float(row["pz"]))
                     rise = profile(min(1, math.hypot(q[0] - x, q[1] - y)))
                     self.assertAlmostEqual(float(row["h"]), q[2] - rise, delta=1e-6)

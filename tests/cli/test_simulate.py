@@ -78,6 +78,18 @@ class SimulateTest(support.CliTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn("krepl: path.ngc: leaves ", done.stderr)
 
+    def test_one_path_after_another(self):
+        """A rapid move through what the path before has taken away."""
+        rest = ("--stock", "1,5", "--cell", "0.5")
+        self.write("fast.ngc", PATH.replace("G1 X7 F600", "G0 X7"))
+        done = self.simulate(*rest, "--before", "path.ngc,flat:6", path="fast.ngc")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("fast.ngc with flat:6", done.stderr + done.stdout)
+        self.assertEqual(self.simulate(*rest, "--before", "path.ngc,flat:5", path="fast.ngc").returncode, 1)
+        simulate = ("simulate", "path.ngc", "--against", "part.off", "--tool", "flat:6", "-o", "out.tif", "--before")
+        self.fail_with(2, "--before 'path.ngc' is not PATH,TOOL; as rough.ngc,flat:10", *simulate, "path.ngc", output="out.tif")
+        self.fail_with(1, "none.ngc: no such file; check the name", *simulate, "none.ngc,flat:6", output="out.tif")
+
     def test_control_points_of_a_ball(self):
         """A ball's centre at 3 is its tip at 0."""
         self.write("tip.ngc", HEAD + "G0 Z7\nG1 Z4 F60\nG1 Y8\nG0 Z20\n")

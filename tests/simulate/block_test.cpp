@@ -80,6 +80,23 @@ TEST(Block, ARapidThroughMaterialIsFound) {
   EXPECT_EQ(s.report().gouge.value, 0);
 }
 
+TEST(Block, OnePathAfterAnother) {
+  const DropCase c = table();
+  StockOptions stock;
+  stock.cell = 0.5, stock.top = 6;
+  const ToolPath first{{90, 215, 20}, {rapid({90, 215, 3}), line({150, 215, 3})}};
+  const ToolPath second{{90, 215, 20}, {rapid({90, 215, 3}), rapid({150, 215, 3}), line({150, 215, 2})}};
+  const Simulation a = simulate(first, *c.terrain, *Cutter::flat(6), stock);
+  EXPECT_EQ(simulate(second, *c.terrain, *Cutter::flat(4), stock).report().cutting_rapids, 1u);
+  const Result<Simulation> b = Simulation::run(second, *c.terrain, *Cutter::flat(4), stock, {}, &a);
+  ASSERT_TRUE(b.ok()) << b.error().text();
+  EXPECT_EQ(b->report().cutting_rapids, 0u);
+  for (std::size_t d = 0; d < a.left().size(); ++d) ASSERT_LE(b->left()[d], a.left()[d]);
+  EXPECT_GT(Simulation::run(second, *c.terrain, *Cutter::flat(8), stock, {}, &a)->report().cutting_rapids, 0u);
+  stock.cell = 0.25;
+  EXPECT_FALSE(Simulation::run(second, *c.terrain, *Cutter::flat(4), stock, {}, &a).ok());
+}
+
 TEST(Block, HelixAndFullCircle) {
   const DropCase c = table();
   // Down a helix of radius 4 about (115, 215), then a full circle, all at heights above the part.
