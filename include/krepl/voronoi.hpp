@@ -104,4 +104,8 @@ class VoronoiDiagram {
   std::shared_ptr<const Parts> parts_;
 };
 
+/// Whether one diagram for all radii is the quicker way to their zones, against compute_zone once for each. A diagram costs
+/// about as much as a dozen zones without one (docs/voronoi.md, "Cost"), and ends at its horizon.
+bool diagram_pays(const Network& network, std::span<const double> radii);
+
 }  // namespace krepl

@@ -1,11 +1,14 @@
 #include "input/collected.hpp"
 
+#include <fmt/format.h>
+
 #include "ogr/spatial_reference.hpp"
 
 namespace krepl::input {
 
-Result<Collected> collect(GeometrySource& source, const Context& context, const Seen& seen) {
+Result<Collected> collect(GeometrySource& source, double arc_error, const Context& context, const Seen& seen) {
   Collected all;
+  all.parts.arc_error = arc_error;
   for (std::size_t count = 0;; ++count) {
     if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while reading", "", ""};
     if (context.progress && count % 256 == 0) context.progress(source.fraction());
@@ -39,6 +42,10 @@ std::vector<std::string> notes_on(const Collected& all, const GeometrySource& so
   std::vector<std::string> notes = source.notes();
   if (all.without_geometry > 0) {
     notes.push_back("note: " + std::to_string(all.without_geometry) + " features without geometry are left out");
+  }
+  if (all.parts.arcs > 0) {
+    notes.push_back(fmt::format("note: chords stand for {} arcs and deviate by {:.3g} at most; what is made of them "
+                                "is off by as much", all.parts.arcs, all.parts.arc_deviation));
   }
   if (all.parts.has_height) notes.emplace_back("note: Z and M values are left out");
   return notes;

@@ -17,14 +17,14 @@ struct Collected {
   std::size_t with_geometry = 0, without_geometry = 0;
 };
 
-/// All geometries of a source; `seen` is called for each that is not empty, with the number of parts there are with it.
+/// All geometries of a source, chords within `arc_error` for arcs; `seen` is called for each that is not empty, with the number of parts there are with it.
 using Seen = std::function<void(const GeometrySource::Item&, std::size_t parts)>;
-Result<Collected> collect(GeometrySource& source, const Context& context, const Seen& seen = {});
+Result<Collected> collect(GeometrySource& source, double arc_error, const Context& context, const Seen& seen = {});
 
 /// Why there is no part at all.
 Error nothing_found(const NetworkRequest& request, const Collected& found);
 
-/// What the user should know about what was read: features and heights left out, what the reader of the format loses.
+/// What the user should know about what was read: features and heights left out, chords for arcs, what the reader of the format loses.
 std::vector<std::string> notes_on(const Collected& all, const GeometrySource& source);
 
 /// The coordinate system the data have: the one that the request assigns, else the file's.

@@ -32,7 +32,7 @@ Result<std::vector<Point>> projected_places(const NetworkRequest& request, const
 Result<NetworkData> read_network(const NetworkRequest& request, const Context& context) {
   auto source = open_geometry_source(request.path, {request.layer, request.where}, context);
   if (!source) return source.error();
-  Result<Collected> all = collect(**source, context);
+  Result<Collected> all = collect(**source, request.arc_error, context);
   if (!all) return all.error();
   Parts& parts = all->parts;
   if (parts.size() == 0) return nothing_found(request, *all);

@@ -10,8 +10,9 @@ namespace krepl::verify {
 
 namespace {
 
-Result<input::Parts> read_all(input::GeometrySource& source, const Context& context) {
+Result<input::Parts> read_all(input::GeometrySource& source, double arc_error, const Context& context) {
   input::Parts parts;
+  parts.arc_error = arc_error;
   for (;;) {
     if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while reading", "", ""};
     auto item = source.next();
@@ -54,7 +55,7 @@ Result<std::vector<InputPart>> read_parts(const InputRequest& request, const Con
   if (!request.radius_field.empty() || !request.radius_expression.empty()) return read_parts_with_radii(request, context);
   auto source = input::open_geometry_source(request.path, {request.layer, request.where}, context);
   if (!source) return source.error();
-  auto parts = read_all(**source, context);
+  auto parts = read_all(**source, request.arc_error, context);
   if (!parts) return parts.error();
   if (parts->size() == 0)
     return Error{ErrorCode::input, "has no geometry to check against", "", "give the input of the result"};

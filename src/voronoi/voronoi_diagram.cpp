@@ -32,6 +32,11 @@ struct VoronoiDiagram::Parts {
   }
 };
 
+bool diagram_pays(const Network& network, std::span<const double> radii) {
+  constexpr std::size_t many = 16;
+  return radii.size() >= many && *std::max_element(radii.begin(), radii.end()) < network.extent();
+}
+
 Result<VoronoiDiagram> VoronoiDiagram::build(std::shared_ptr<const Network> network, const Context& context) {
   constexpr double largest_number = 1e18;
   if (network->extent() > largest_number) {
