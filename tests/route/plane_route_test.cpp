@@ -52,6 +52,8 @@ TEST(PlaneRoute, Straight) {
   expect_length(c, {-5, 3}, {5, 3}, 10);
   expect_length(c, {-5, 1}, {5, 1}, 10);  // grazes the point's circle
   expect_length(c, {2, 2}, {2, 2}, 0);
+  EXPECT_EQ(axis_route_of(c, {2, 2}, {2, 2})->length, 0);
+  EXPECT_EQ(route_of(c, {2, 2}, {2, 2}, 1)->pieces.size(), 1u);
 }
 
 TEST(PlaneRoute, AroundAPoint) {
