@@ -22,8 +22,8 @@ void put_points(fmt::memory_buffer& text, const std::vector<Point>& points) {
 
 Zone::Piece as_zone_piece(const CurvePiece& p) {
   const Zone::Kind kind = p.arc ? Zone::Kind::arc : Zone::Kind::segment;
-  return p.arc && p.clockwise ? Zone::Piece{kind, p.end, p.start, p.center, 0, false}
-                              : Zone::Piece{kind, p.start, p.end, p.center, 0, false};
+  return p.arc && p.clockwise ? Zone::Piece{kind, p.end, p.start, p.center, 0, false, 0}
+                              : Zone::Piece{kind, p.start, p.end, p.center, 0, false, 0};
 }
 
 bool is_arc(const CurvePiece& p) { return p.arc && !is_negligible(as_zone_piece(p)); }
