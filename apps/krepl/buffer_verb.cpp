@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
 #include "input/network_reader.hpp"
 #include "krepl/sweep.hpp"
 #include "krepl/voronoi.hpp"
 #include "krepl/zone.hpp"
 #include "output/zone_file.hpp"
+#include "feature_buffer.hpp"
 #include "network_options.hpp"
 #include "output_target.hpp"
 #include "stopwatch.hpp"
@@ -21,6 +21,7 @@ struct BufferOptions {
   input::NetworkRequest input;
   std::string output, radius, max_error, format, engine = "auto";
   bool no_pieces = false, separate = false;
+  FeatureOptions features;
 };
 
 /// What the options mean once they are checked; made before anything is read.
@@ -37,19 +38,18 @@ Status check_engine(const std::string& engine) {
                "give --engine auto, intervals, voronoi or sweep"};
 }
 
-/// A diagram costs about as much as a dozen zones without one (docs/voronoi.md, "Cost"); it ends at its horizon.
 bool wants_diagram(const std::string& engine, const std::vector<double>& radii, const Network& network) {
-  constexpr std::size_t many = 16;
-  if (engine != "auto") return engine == "voronoi";
-  return radii.size() >= many && *std::max_element(radii.begin(), radii.end()) < network.extent();
+  return engine == "auto" ? diagram_pays(network, radii) : engine == "voronoi";
 }
 
 Result<BufferPlan> make_plan(const BufferOptions& options) {
   BufferPlan plan;
   if (Status engine = check_engine(options.engine); !engine) return engine.error();
-  Result<std::vector<double>> radii = parse_radii(options.radius);
-  if (!radii) return radii.error();
-  plan.radii = *radii;
+  if (!needs_features(options.features, options.radius)) {
+    Result<std::vector<double>> radii = parse_radii(options.radius);
+    if (!radii) return radii.error();
+    plan.radii = *radii;
+  }
   plan.engine = options.engine;
   if (!options.max_error.empty()) {
     Result<double> max_error = parse_positive("--max-error", options.max_error);
@@ -153,6 +153,11 @@ int run_buffer(const BufferOptions& options, Session& session) {
   if (!plan) return session.fail("", plan.error());
   if (Status target = check_target(options.output, {options.input.path}); !target)
     return session.fail(options.output, target.error());
+  if (needs_features(options.features, options.radius)) {
+    return run_feature_buffer({options.features, options.input, options.output, options.radius, options.engine, plan->format,
+                               plan->file},
+                              session);
+  }
 
   Stopwatch reading;
   const std::string in_name = input_name(options.input.path);
@@ -191,9 +196,10 @@ void add_buffer_verb(CLI::App& program, Session& session) {
                    "Result: .gpkg .fgb .wkt .wkb (curves), .svg .dxf (arcs), .geojson .shp ... (chords), or -")
       ->required();
   verb->add_option("--radius", options->radius,
-                   "Radius of the disk, in the unit of the coordinates; several, or FIRST:LAST:STEP, give nested zones")
-      ->required()
+                   "Radius of the disk, in the unit of the coordinates; several, or FIRST:LAST:STEP, give nested zones; "
+                   "or an expression of fields, a radius for each feature: \"width / 2 + 5\"")
       ->type_name("R[,R2,...]");
+  add_feature_options(*verb, options->features);
   add_network_options(*verb, options->input, options->format);
   verb->add_option("--max-error", options->max_error, "Formats without arcs: largest deviation (default: radius / 1000)")
       ->type_name("LENGTH");
