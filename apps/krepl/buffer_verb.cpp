@@ -89,7 +89,7 @@ void tell_diagram(const VoronoiDiagram& diagram, double seconds, Session& sessio
   const VoronoiCounters& c = diagram.counters();
   session.detail(fmt::format("diagram    {:.3f} s: {} faces, {} edges, {} vertices", seconds, c.faces,
                              diagram.edge_count(), diagram.vertex_count()));
-  session.detail(fmt::format("faces      {} candidates; {} faces and {} vertices in quadruple precision, {} in 320 bits, {} links reconciled", c.candidates, c.faces_in_quadruple, c.vertices_in_quadruple, c.faces_in_320_bits, c.links_reconciled));
+  session.detail(fmt::format("faces      {} candidates; {} done again in pairs of doubles, {} in quadruple precision, {} in 320 bits; {} vertices, {} links reconciled", c.candidates, c.faces_in_pairs, c.faces_in_quadruple, c.faces_in_320_bits, c.vertices_in_quadruple, c.links_reconciled));
 }
 
 void tell_sweep(const SweepCounters& c, Session& session) {
