@@ -63,7 +63,7 @@ Interval BallBodies::domain(std::size_t body) const {
 Touch BallBodies::at(std::size_t body, double t) const {
   const Part& p = parts_[body];
   const Point place = line_.at(t);
-  const drop::Ball ball{place, radius_, squared_};
+  const drop::Ball ball = drop::ball_over(place, radius_);
   const Point d = line_.direction;
   drop::FaceTouch face;
   if (!p.vertical) face = drop::touch_face(p.corner[0], p.corner[1], p.corner[2], ball);

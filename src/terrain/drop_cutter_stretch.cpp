@@ -61,7 +61,7 @@ bool StretchSearch::list(Point from, Point to, double floor, std::vector<Part>& 
   parts.clear();
   return hierarchy.with_tree([&](const auto& tree) {
     DropCutterAccess::Trace trace{last_place_, last_, last_triangle_};
-    const DropCutter::Contact contact = hierarchy.touch(tree, centre, radius, trace);
+    const DropCutter::Contact contact = hierarchy.touch(tree, ball_over(centre, radius), trace);
     last_place_ = trace.place, last_ = trace.contact, last_triangle_ = trace.triangle;
     touches_ = contact.touches();
     LowerBound bound = below(contact, centre, half_x, half_y, radius, floor);
@@ -70,7 +70,7 @@ bool StretchSearch::list(Point from, Point to, double floor, std::vector<Part>& 
       for (const Point end : {from, to}) {
         DropCutterAccess::Trace beside = trace;
         const LowerBound other =
-            below(hierarchy.touch(tree, end, radius, beside), centre, half_x, half_y, radius, floor);
+            below(hierarchy.touch(tree, ball_over(end, radius), beside), centre, half_x, half_y, radius, floor);
         if (other.height > bound.height) bound = other;
       }
     }
