@@ -23,7 +23,10 @@ Result<Contour> ContourTracer::run() {
   move_off_vertices();
   for (const Index e : edges_) parts_.is_rim(e) ? cross_rim(e) : cross_edge(e);
   const bool paired = tracing_.pair(
-      [&](const Patch& patch, const Crossing& c) { return patch.place_at_level({c.at.x, c.at.y}, level_); });
+      [&](const Patch& patch, const Crossing& c) { return patch.place_at_level({c.at.x, c.at.y}, level_); },
+      [&](Index face, const Patch& patch, double angle) {
+        return parts_.face_holds(face, patch.on_level_circle(level_, angle));
+      });
   if (!paired || !trace())
     return Error{ErrorCode::computation, "the contour at " + std::to_string(contour_.level) + " does not close", "",
                  "please report this input"};
@@ -60,7 +63,7 @@ void ContourTracer::cross_edge(Index e) {
   const bool starts_high = is_high(2 * e), ends_high = is_high(2 * e + 1);
   if (starts_high == ends_high && parts_.surface->edge(e).curve == Surface::Curve::line) return;
   find_crossings(EdgeCourse(parts_, e), e, Side::both, starts_high, ends_high, [&](Point3 p) { return p.z - level_; },
-                 tracing_.crossings);
+                 2 * parts_.shift, tracing_.crossings);
 }
 
 void ContourTracer::cross_rim(Index e) {
@@ -77,7 +80,8 @@ void ContourTracer::cross_rim(Index e) {
     const EdgeCourse course(parts_, e);
     const Patch patch = parts_.patch(face);
     const auto value = [&](Point3 p) { return (is_upper ? p.z : patch.height({p.x, p.y})) - level_; };
-    find_crossings(course, e, side == 0 ? Side::left : Side::right, starts[side], ends[side], value, tracing_.crossings);
+    find_crossings(course, e, side == 0 ? Side::left : Side::right, starts[side], ends[side], value,
+                   2 * parts_.shift, tracing_.crossings);
   }
   const auto begin = tracing_.crossings.begin() + first;
   std::stable_sort(begin, tracing_.crossings.end(), [](const Crossing& a, const Crossing& b) { return a.s < b.s; });
@@ -163,7 +167,7 @@ void ContourTracer::add_patch_piece(Index from, Index to) {
   piece.start.z = piece.end.z = piece.centre.z = contour_.level;
   piece.face = face;
   piece.feature = parts_.surface->face_feature(face);
-  // Nearly a whole circle, or back a bit by rounding.
+  // Back a bit by rounding rather than nearly a whole circle.
   constexpr double turn = 2 * std::numbers::pi;
   if (piece.kind == CutPiece::Kind::circle && piece.to - piece.from > turn - 1e-3 &&
       distance(piece.start, piece.end) <= 0x1p-30 * parts_.scale) {

@@ -19,8 +19,9 @@ struct Crossing {
 };
 
 /// Appends the places where a function changes its sign along an edge, with s ascending; not negative counts as high. What it is
-/// at the ends is given, and holds whatever the function says there.
+/// at the ends is given, and holds whatever the function says there. Next to an end where the function is no more than `slack` the
+/// crossing is at the end.
 void find_crossings(const EdgeCourse& course, Index edge, Crossing::Side side, bool starts_high, bool ends_high,
-                    const std::function<double(Point3)>& value, std::vector<Crossing>& out);
+                    const std::function<double(Point3)>& value, double slack, std::vector<Crossing>& out);
 
 }  // namespace krepl::section

@@ -91,6 +91,11 @@ CutPiece Patch::level_piece(Point3 start, Point3 end) const {
   return piece;
 }
 
+Point Patch::on_level_circle(double level, double angle) const {
+  const double size = level_circle(level).axis[0].x;
+  return {at_.x + size * std::cos(angle), at_.y + size * std::sin(angle)};
+}
+
 CutPiece Patch::level_circle(double level) const {
   CutPiece piece;
   piece.kind = CutPiece::Kind::circle;

@@ -32,6 +32,8 @@ class Patch {
     friend auto operator<=>(const Place&, const Place&) = default;
   };
   Place place_at_level(Point p, double level) const;
+  /// Of a sphere: the point of the level circle at an angle.
+  Point on_level_circle(double level, double angle) const;
   /// The part of the level curve from start to end in that order.
   CutPiece level_piece(Point3 start, Point3 end) const;
   /// All of it, for a sphere.
@@ -39,6 +41,7 @@ class Patch {
   /// Of a vertical cut, along the line.
   CutPiece line_piece(Point3 start, Point3 end, const Line& line) const;
 
+  bool is_sphere() const { return kind_ == Terrain::FeatureKind::vertex; }
   Point at() const { return {at_.x, at_.y}; }
 
  private:

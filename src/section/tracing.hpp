@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "section/crossings.hpp"
@@ -17,8 +18,10 @@ class Tracing {
 
   /// Pairs what enters each face with what leaves it, by their order along the cut: `place` tells it. Faces without a patch are
   /// left out. False if numbers differ, which does not happen where neighbours agree.
+  /// On a curve that is closed, a circle by its angle, `holds` tells what it is inside a face between crossings.
   using PlaceOf = std::function<Patch::Place(const Patch&, const Crossing&)>;
-  [[nodiscard]] bool pair(const PlaceOf& place);
+  using HoldsAt = std::function<bool(Index face, const Patch&, double angle)>;
+  [[nodiscard]] bool pair(const PlaceOf& place, const HoldsAt& holds);
 
   /// The face that the cut enters at a crossing, and the one it comes from; none if it does neither.
   Index entered(Index crossing) const { return face(crossing, !crossings[crossing].rising); }
@@ -36,7 +39,9 @@ class Tracing {
     Patch::Place place;
   };
   Index face(Index crossing, bool left_of_edge) const;
-  bool match(std::vector<Visit>::iterator first, std::vector<Visit>::iterator last);
+  using Visits = std::span<Visit>;
+  bool match(Visits visits, const Patch& patch, const HoldsAt& holds);
+  bool match_run(Visits run, bool starts_inside);
 
   const Parts& parts_;
   std::vector<Visit> visits_;

@@ -83,7 +83,7 @@ std::optional<CutCase> make_case(std::shared_ptr<const Terrain> terrain, double 
   Result<Surface> surface = compute_surface(terrain, {radius});
   Result<DropCutter> cutter = DropCutter::build(terrain, radius);
   if (!surface || !cutter) return std::nullopt;
-  CutCase c{std::move(name), terrain, std::make_shared<const Surface>(std::move(*surface)), {}, {}};
+  CutCase c{std::move(name), terrain, std::make_shared<const Surface>(std::move(*surface)), {}, {}, {}};
   c.cutter = std::move(*cutter);
   Result<SurfaceCutter> cuts = SurfaceCutter::build(c.surface);
   if (!cuts) return std::nullopt;
