@@ -2,7 +2,7 @@
 
 _krepl() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  local verbs="buffer axis rivers offset profile terrain height info verify view lab" verb= word
+  local verbs="buffer axis rivers offset profile terrain height contour section info verify view lab" verb= word
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case " $verbs " in *" $word "*) verb=$word; break ;; esac
   done
@@ -14,6 +14,7 @@ _krepl() {
   case $previous in
     --format)
       local formats="gpkg fgb wkt wkb geojson shp svg dxf"
+      [[ $verb == contour || $verb == section ]] && formats="csv gpkg fgb wkt geojson shp svg dxf"
       [[ $verb == terrain ]] && formats="json gpkg step tif stl ply glb png"
       mapfile -t COMPREPLY < <(compgen -W "$formats" -- "$current"); return ;;
     --engine)
@@ -22,6 +23,7 @@ _krepl() {
       mapfile -t COMPREPLY < <(compgen -W "$engines" -- "$current"); return ;;
     --zones) mapfile -t COMPREPLY < <(compgen -W "sub-river stem whole" -- "$current"); return ;;
     --outlet) mapfile -t COMPREPLY < <(compgen -W "guess" -- "$current"); return ;;
+    --ties) mapfile -t COMPREPLY < <(compgen -W "high low" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "mm cm m km in ft" -- "$current"); return ;;
     --split) mapfile -t COMPREPLY < <(compgen -W "rising falling shorter" -- "$current"); return ;;
     --to-crs) mapfile -t COMPREPLY < <(compgen -W "auto EPSG:" -- "$current"); return ;;
@@ -33,7 +35,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit) return ;;
+    --radius | --level | --step | --from | --to | --distance | --snap | --grid | --flow-field | --where | --max-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit) return ;;
   esac
   local command=("$verb")
   if [[ $verb == lab ]]; then

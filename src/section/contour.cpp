@@ -167,13 +167,7 @@ void ContourTracer::add_patch_piece(Index from, Index to) {
   piece.start.z = piece.end.z = piece.centre.z = contour_.level;
   piece.face = face;
   piece.feature = parts_.surface->face_feature(face);
-  // Back a bit by rounding rather than nearly a whole circle.
-  constexpr double turn = 2 * std::numbers::pi;
-  if (piece.kind == CutPiece::Kind::circle && piece.to - piece.from > turn - 1e-3 &&
-      distance(piece.start, piece.end) <= 0x1p-30 * parts_.scale) {
-    const Point3 opposite = piece.at(0.5);
-    if (!parts_.face_holds(face, {opposite.x, opposite.y})) piece.to -= turn;
-  }
+  if (patch.is_sphere()) piece.to = piece.from + tracing_.sweep(from);
   contour_.pieces.push_back(piece);
 }
 

@@ -118,6 +118,7 @@ std::optional<EdgeCourse::Around> EdgeCourse::around(int side, const std::vector
     }
     a.guides.push_back({t, dot(p - a.at, a.along)});
   }
+  if (edge_.curve == Surface::Curve::quartic) a.branch = branch(a);
   return a;
 }
 
@@ -129,15 +130,15 @@ double EdgeCourse::Around::expected(double angle) const {
   return place_a + std::clamp((angle - a) / (b - a), 0.0, 1.0) * (place_b - place_a);
 }
 
-std::optional<Point3> EdgeCourse::on_cylinder(double s) const {
-  const Around& a = *around_;
-  const double angle = a.from + s * (a.to - a.from), radius = surface_.radius();
+std::optional<EdgeCourse::Places> EdgeCourse::places(const Around& a, double angle) const {
+  const double radius = surface_.radius();
   const Point3 base = a.at + (radius * std::cos(angle)) * a.left + (radius * std::sin(angle)) * a.up;
   Point3 w = base - a.other_at, d = a.along;
   if (a.other_kind == FeatureKind::face) {
     const double rate = dot(d, a.other_direction);
     if (rate == 0) return std::nullopt;
-    return base + (radius - dot(w, a.other_direction)) / rate * d;
+    const double place = (radius - dot(w, a.other_direction)) / rate;
+    return Places{base, place, place};
   }
   if (a.other_kind == FeatureKind::edge) {
     w = w - dot(w, a.other_direction) * a.other_direction;
@@ -145,10 +146,30 @@ std::optional<Point3> EdgeCourse::on_cylinder(double s) const {
   }
   const double square = dot(d, d), half = dot(w, d), rest = dot(w, w) - radius * radius;
   const double root = std::sqrt(std::max(0.0, half * half - square * rest));
-  const double q = half > 0 ? -half - root : -half + root;
-  const double expected = a.expected(angle);
-  const double first = q / square, second = q != 0 ? rest / q : first;
-  return base + (std::abs(first - expected) < std::abs(second - expected) ? first : second) * a.along;
+  return Places{base, (root - half) / square, (-root - half) / square};
+}
+
+/// Where the two are farthest apart the samples tell which one is meant.
+int EdgeCourse::branch(const Around& a) const {
+  double farthest = 0;
+  int result = 0;
+  for (const auto& [angle, place] : a.guides) {
+    const auto found = places(a, angle);
+    if (!found || found->larger - found->smaller <= farthest) continue;
+    farthest = found->larger - found->smaller;
+    result = std::abs(place - found->larger) < std::abs(place - found->smaller) ? 1 : -1;
+  }
+  return result;
+}
+
+std::optional<Point3> EdgeCourse::on_cylinder(double s) const {
+  const Around& a = *around_;
+  const double angle = a.from + s * (a.to - a.from);
+  const auto found = places(a, angle);
+  if (!found) return std::nullopt;
+  const double expected = a.branch == 0 ? a.expected(angle) : 0;
+  const bool larger = a.branch != 0 ? a.branch > 0 : std::abs(found->larger - expected) < std::abs(found->smaller - expected);
+  return found->base + (larger ? found->larger : found->smaller) * a.along;
 }
 
 Point3 EdgeCourse::projected(Point3 near, double reach) const {

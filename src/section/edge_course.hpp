@@ -32,6 +32,7 @@ class EdgeCourse {
     std::vector<std::pair<double, double>> guides;  ///< angles, going one way, and places along the axis: which of two
                                                     ///< points of the same angle is meant
     double expected(double angle) const;
+    int branch = 0;  ///< of a quartic: the larger (1) or smaller (-1) of two places of one angle, all along
   };
   struct Circle {
     Point3 centre, u, v;
@@ -41,6 +42,12 @@ class EdgeCourse {
   void find_circle(bool is_closed);
   void find_around();
   std::optional<Around> around(int side, const std::vector<Point3>& guides) const;
+  struct Places {
+    Point3 base;  ///< on the cylinder, of a certain angle
+    double larger, smaller;  ///< along the axis from there, where it meets the other surface
+  };
+  std::optional<Places> places(const Around& a, double angle) const;
+  int branch(const Around& a) const;
   std::optional<Point3> on_cylinder(double s) const;
   Point3 projected(Point3 near, double reach) const;
 

@@ -78,7 +78,6 @@ CutPiece Patch::level_piece(Point3 start, Point3 end) const {
     piece.start = start, piece.end = end;
     piece.from = std::atan2(start.y - at_.y, start.x - at_.x);
     piece.to = std::atan2(end.y - at_.y, end.x - at_.x);
-    if (piece.to < piece.from) piece.to += 2 * std::numbers::pi;
     return piece;
   }
   piece.from = angle(start);

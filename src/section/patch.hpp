@@ -34,7 +34,7 @@ class Patch {
   Place place_at_level(Point p, double level) const;
   /// Of a sphere: the point of the level circle at an angle.
   Point on_level_circle(double level, double angle) const;
-  /// The part of the level curve from start to end in that order.
+  /// The part of the level curve from start to end in that order; on a sphere, of any number of turns.
   CutPiece level_piece(Point3 start, Point3 end) const;
   /// All of it, for a sphere.
   CutPiece level_circle(double level) const;

@@ -5,6 +5,12 @@
 
 namespace krepl::section {
 
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+}  // namespace
+
 /// Along its border, with the face on the left, the cut enters a face where that falls and leaves it where it rises.
 Index Tracing::face(Index c, bool left_of_edge) const {
   const Crossing& crossing = crossings[c];
@@ -15,6 +21,7 @@ Index Tracing::face(Index c, bool left_of_edge) const {
 bool Tracing::pair(const PlaceOf& place, const HoldsAt& holds) {
   visits_.clear();
   exit_.assign(crossings.size(), none);
+  sweep_.assign(crossings.size(), 0);
   const auto add = [&](Index f, Index crossing, bool enters) {
     if (f == none || parts_.surface->face_feature(f) == none) return;
     visits_.push_back({f, crossing, enters, {}});
@@ -38,14 +45,17 @@ bool Tracing::pair(const PlaceOf& place, const HoldsAt& holds) {
 bool Tracing::match(Visits visits, const Patch& patch, const HoldsAt& holds) {
   if (holds && patch.is_sphere()) {
     // Begin in the widest gap, where rounding does not matter.
-    constexpr double turn = 2 * std::numbers::pi;
     double widest = visits.front().place.along + turn - visits.back().place.along;
     std::size_t begin = 0;
     for (std::size_t i = 1; i < visits.size(); ++i) {
       const double gap = visits[i].place.along - visits[i - 1].place.along;
       if (gap > widest) widest = gap, begin = i;
     }
-    const bool inside = holds(visits.front().face, patch, visits[begin].place.along - widest / 2);
+    int votes = 0;  // one place may lie on the border of the face, where that touches the circle
+    for (const double part : {0.31, 0.52, 0.73})
+      votes += holds(visits.front().face, patch, visits[begin].place.along - part * widest) ? 1 : -1;
+    const bool inside = votes > 0;
+    for (std::size_t i = 0; i < begin; ++i) visits[i].place.along += turn;
     std::rotate(visits.begin(), visits.begin() + std::ptrdiff_t(begin), visits.end());
     return match_run(visits, inside);
   }
@@ -67,7 +77,11 @@ bool Tracing::match_run(Visits run, bool starts_inside) {
     std::rotate(run.begin() + std::ptrdiff_t(i), due, due + 1);
   }
   if (inside != starts_inside) return false;
-  for (std::size_t i = starts_inside ? 1 : 0; i < run.size(); i += 2) exit_[run[i].crossing] = run[(i + 1) % run.size()].crossing;
+  for (std::size_t i = starts_inside ? 1 : 0; i < run.size(); i += 2) {
+    const Visit &entry = run[i], &exit = run[(i + 1) % run.size()];
+    exit_[entry.crossing] = exit.crossing;
+    sweep_[entry.crossing] = exit.place.along - entry.place.along + (i + 1 == run.size() ? turn : 0);
+  }
   return true;
 }
 

@@ -29,6 +29,8 @@ class Tracing {
   bool enters(Index crossing) const { return exit_[crossing] != none; }
   /// Where it leaves the face that it enters there.
   Index exit(Index crossing) const { return exit_[crossing]; }
+  /// On a circle: the angle from a crossing to that, as little below zero as rounding has it or up to a whole turn.
+  double sweep(Index crossing) const { return sweep_[crossing]; }
   /// Of the faces with crossings.
   bool meets(Index face) const;
 
@@ -46,6 +48,7 @@ class Tracing {
   const Parts& parts_;
   std::vector<Visit> visits_;
   std::vector<Index> exit_;
+  std::vector<double> sweep_;
 };
 
 }  // namespace krepl::section

@@ -71,6 +71,16 @@ bool CutCase::passes(Point3 p, double within) const {
   return std::abs(double(solid_distance(triangles, p)) - surface->radius()) <= 1e-12 * scale();
 }
 
+bool CutCase::is_sound() const {
+  for (Surface::Index e = 0; e < surface->subdivision().edge_count(); ++e) {
+    if (surface->edge(e).kind == Surface::EdgeKind::rim) continue;
+    for (const Point3 p : surface->curve(e, 5)) {
+      if (!passes(p, 1e-9 * scale())) return false;
+    }
+  }
+  return true;
+}
+
 bool CutCase::is_at_tangent_walls(Point3 p, double within) const {
   for (Surface::Index v = 0; v < surface->subdivision().vertex_count; ++v) {
     const Point3 q = surface->vertex(v);

@@ -31,6 +31,8 @@ struct CutCase {
   /// True if the surface, or a wall below a rim, passes the point that near. A gap between two walls is found however
   /// narrow it is, if it does not end at once.
   bool passes(Point3 p, double within) const;
+  /// False if an edge of the surface is off: faults of the surface's engine are for its own tests (docs/status.md).
+  bool is_sound() const;
   /// True for a point beside a vertex of the surface where walls are tangent: along them that is known to the root of the
   /// tolerance only (docs/surface.md), so nothing passes it nearer.
   bool is_at_tangent_walls(Point3 p, double within) const;
