@@ -48,13 +48,14 @@ class Search {
       if (const auto s = descend(a.s, c.s, sign)) found.push_back(*s);
     }
     for (const Sample& s : found) {
-      const auto at = std::lower_bound(samples_.begin(), samples_.end(), s.s, [](const Sample& x, double y) { return x.s < y; });
+      const auto at =
+          std::lower_bound(samples_.begin(), samples_.end(), s.s, [](const Sample& x, double y) { return x.s < y; });
       if (at == samples_.end() || at->s != s.s) samples_.insert(at, s);
     }
   }
 
-  /// At a vertex where curves are tangent a closed form may begin a bit beside it: next to one that is on the level but for
-  /// rounding, or for how far the level was moved, the crossing is the vertex.
+  /// At a vertex where curves are tangent a closed form may begin a bit beside it: next to one that is on the level but
+  /// for rounding, or for how far the level was moved, the crossing is the vertex.
   double snapped(double s, const Sample& a, const Sample& b) const {
     constexpr double near = 1e-5;
     if (a.s == 0 && s < near && std::abs(a.value) <= slack_) return 0;

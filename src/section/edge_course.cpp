@@ -21,12 +21,14 @@ EdgeCourse::EdgeCourse(const Parts& parts, Index e) : surface_(*parts.surface), 
     samples_ = {a, b};
     return;
   }
-  // A level or a line crosses a circle or an ellipse twice at most, but other curves, and what is below a rim, more often.
+  // A level or a line crosses a circle or an ellipse twice at most, but other curves, and what is below a rim, more
+  // often.
   const bool twisted = !surface_.guides(e).empty() || edge_.curve == Surface::Curve::quartic;
   const double arc = distance(a, b) / surface_.radius();
   samples_ = surface_.curve(e, twisted ? 33 : std::clamp(5 + int(std::min(16 * arc, 12.0)), 5, 17));
   for (std::size_t i = 1; i < samples_.size(); ++i) length_ += distance(samples_[i - 1], samples_[i]);
-  if (!is_rim && edge_.curve == Surface::Curve::circle) find_circle(topology.origin[2 * e] == topology.origin[2 * e + 1]);
+  if (!is_rim && edge_.curve == Surface::Curve::circle)
+    find_circle(topology.origin[2 * e] == topology.origin[2 * e + 1]);
   if (!is_rim && (edge_.curve == Surface::Curve::ellipse || edge_.curve == Surface::Curve::quartic)) find_around();
   if (!circle_ && !around_) return;
   for (std::size_t i = 1; i + 1 < samples_.size(); ++i) samples_[i] = at(double(i) / double(samples_.size() - 1));
@@ -70,7 +72,8 @@ void EdgeCourse::find_circle(bool is_closed) {
   if (is_closed) {
     circle.to = angle(samples_[samples_.size() / 4]) < middle ? turn : -turn;
   } else {
-    // Of the two arcs between the ends the one that is as long as the samples tell; half circles go through the middle one.
+    // Of the two arcs between the ends the one that is as long as the samples tell; half circles go through the middle
+    // one.
     const double end = angle(samples_.back()), arc = length_ / length(circle.u);
     const bool is_half = std::abs(end - std::numbers::pi) < 0.5;
     const bool forwards = is_half ? middle <= end : std::abs(end - arc) < std::abs(turn - end - arc);
@@ -91,7 +94,8 @@ void EdgeCourse::find_around() {
 /// By the angle around one of the edges that the ball touches, if it goes one way only.
 std::optional<EdgeCourse::Around> EdgeCourse::around(int side, const std::vector<Point3>& guides) const {
   const Terrain& terrain = surface_.terrain();
-  const auto own = terrain.corners(edge_.feature[std::size_t(side)]), other = terrain.corners(edge_.feature[std::size_t(1 - side)]);
+  const auto own = terrain.corners(edge_.feature[std::size_t(side)]),
+             other = terrain.corners(edge_.feature[std::size_t(1 - side)]);
   if (own.count != 2 || samples_.front() == samples_.back()) return std::nullopt;
   Around a;
   a.at = own.point[0];
@@ -124,7 +128,8 @@ std::optional<EdgeCourse::Around> EdgeCourse::around(int side, const std::vector
 
 double EdgeCourse::Around::expected(double angle) const {
   const bool ascending = to > from;
-  const auto after = std::find_if(guides.begin() + 1, guides.end() - 1, [&](const auto& g) { return ascending ? g.first >= angle : g.first <= angle; });
+  const auto after = std::find_if(guides.begin() + 1, guides.end() - 1,
+                                  [&](const auto& g) { return ascending ? g.first >= angle : g.first <= angle; });
   const auto [a, place_a] = after[-1];
   const auto [b, place_b] = *after;
   return place_a + std::clamp((angle - a) / (b - a), 0.0, 1.0) * (place_b - place_a);
@@ -168,7 +173,8 @@ std::optional<Point3> EdgeCourse::on_cylinder(double s) const {
   const auto found = places(a, angle);
   if (!found) return std::nullopt;
   const double expected = a.branch == 0 ? a.expected(angle) : 0;
-  const bool larger = a.branch != 0 ? a.branch > 0 : std::abs(found->larger - expected) < std::abs(found->smaller - expected);
+  const bool larger =
+      a.branch != 0 ? a.branch > 0 : std::abs(found->larger - expected) < std::abs(found->smaller - expected);
   return found->base + (larger ? found->larger : found->smaller) * a.along;
 }
 

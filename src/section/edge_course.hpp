@@ -10,9 +10,9 @@ namespace krepl::section {
 
 /// An edge of a surface as a curve over [0, 1], along half-edge 2e. At a rim z is that of the upper patch.
 ///
-/// Where two patches meet, the nearest point of a curve is not enough to run along it: on steep ground it is drawn out in
-/// height, and near its turn the other arm is as near. So circles run by their angle, curves on a cylinder by the angle
-/// around its axis, which is between 0 and pi.
+/// Where two patches meet, the nearest point of a curve is not enough to run along it: on steep ground it is drawn out
+/// in height, and near its turn the other arm is as near. So circles run by their angle, curves on a cylinder by the
+/// angle around its axis, which is between 0 and pi.
 class EdgeCourse {
  public:
   EdgeCourse(const Parts& parts, Index edge);
@@ -27,8 +27,8 @@ class EdgeCourse {
   struct Around {
     Point3 at, along, left, up;
     Terrain::FeatureKind other_kind;
-    Point3 other_at, other_direction;  ///< of an edge: along it; of a face: its normal
-    double from = 0, to = 0;           ///< angles
+    Point3 other_at, other_direction;               ///< of an edge: along it; of a face: its normal
+    double from = 0, to = 0;                        ///< angles
     std::vector<std::pair<double, double>> guides;  ///< angles, going one way, and places along the axis: which of two
                                                     ///< points of the same angle is meant
     double expected(double angle) const;
@@ -43,7 +43,7 @@ class EdgeCourse {
   void find_around();
   std::optional<Around> around(int side, const std::vector<Point3>& guides) const;
   struct Places {
-    Point3 base;  ///< on the cylinder, of a certain angle
+    Point3 base;             ///< on the cylinder, of a certain angle
     double larger, smaller;  ///< along the axis from there, where it meets the other surface
   };
   std::optional<Places> places(const Around& a, double angle) const;

@@ -91,7 +91,7 @@ CutPiece Patch::level_piece(Point3 start, Point3 end) const {
 }
 
 Point Patch::on_level_circle(double level, double angle) const {
-  const double size = level_circle(level).axis[0].x;
+  const double size = (1 - 0x1p-20) * level_circle(level).axis[0].x;
   return {at_.x + size * std::cos(angle), at_.y + size * std::sin(angle)};
 }
 
@@ -119,7 +119,9 @@ CutPiece Patch::line_piece(Point3 start, Point3 end, const Line& line) const {
     piece.kind = CutPiece::Kind::circle;
     piece.centre = point_of(middle, at_.z);
     piece.axis = {Point3{size * d.x, size * d.y, 0}, Point3{0, 0, size}};
-    const auto around = [&](Point3 p) { return std::atan2(std::max(0.0, p.z - at_.z), line.along({p.x, p.y}) - middle); };
+    const auto around = [&](Point3 p) {
+      return std::atan2(std::max(0.0, p.z - at_.z), line.along({p.x, p.y}) - middle);
+    };
     piece.from = around(start);
     piece.to = around(end);
     return piece;
@@ -134,7 +136,8 @@ CutPiece Patch::line_piece(Point3 start, Point3 end, const Line& line) const {
   piece.centre = point_of(middle, at_.z + m_ * (along(line.base) + forward * middle));
   piece.axis = {Point3{reach * d.x, reach * d.y, reach * m_ * forward}, Point3{0, 0, q_ * radius_}};
   constexpr double same = 1e-15;
-  if (std::abs(m_ * forward) <= same && std::abs(q_ * std::abs(across) - 1) <= same) piece.kind = CutPiece::Kind::circle;
+  if (std::abs(m_ * forward) <= same && std::abs(q_ * std::abs(across) - 1) <= same)
+    piece.kind = CutPiece::Kind::circle;
   return piece;
 }
 

@@ -25,8 +25,11 @@ class SectionTracer {
     collect_edges();
     move_off_vertices();
     for (const Index e : edges_) cross(e);
-    const bool paired =
-        tracing_.pair([&](const Patch&, const Crossing& c) { return Patch::Place{0, line_.along({c.at.x, c.at.y})}; }, {});
+    const bool paired = tracing_.pair(
+        [&](const Patch&, const Crossing& c) {
+          return Patch::Place{0, line_.along({c.at.x, c.at.y})};
+        },
+        {});
     if (!paired || !trace())
       return Error{ErrorCode::computation, "the section does not connect", "", "please report this input"};
     clip();
@@ -65,8 +68,12 @@ class SectionTracer {
     const bool starts_left = is_left(2 * e), ends_left = is_left(2 * e + 1);
     const Surface::Edge edge = parts_.surface->edge(e);
     if (starts_left == ends_left && edge.curve == Surface::Curve::line) return;
-    find_crossings(EdgeCourse(parts_, e), e, Side::both, starts_left, ends_left,
-                   [&](Point3 p) { return line_.aside({p.x, p.y}); }, 2 * parts_.shift, tracing_.crossings);
+    find_crossings(
+        EdgeCourse(parts_, e), e, Side::both, starts_left, ends_left,
+        [&](Point3 p) {
+          return line_.aside({p.x, p.y});
+        },
+        2 * parts_.shift, tracing_.crossings);
   }
 
   /// The height of a face where the line crosses its border.
@@ -192,8 +199,10 @@ Result<std::vector<Section>> SurfaceCutter::sections(std::span<const Line> lines
   kernel::Progress progress(context, lines.size());
   const bool done = kernel::parallel_blocks(context, lines.size(), 1, [&](std::size_t i, std::size_t) {
     Result<Section> made = section(lines[i].from, lines[i].to);
-    if (made) result[i] = std::move(*made);
-    else errors[i] = made.error();
+    if (made)
+      result[i] = std::move(*made);
+    else
+      errors[i] = made.error();
     progress.add(1);
   });
   for (const auto& error : errors) {

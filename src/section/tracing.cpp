@@ -51,6 +51,12 @@ bool Tracing::match(Visits visits, const Patch& patch, const HoldsAt& holds) {
       const double gap = visits[i].place.along - visits[i - 1].place.along;
       if (gap > widest) widest = gap, begin = i;
     }
+    bool is_clear = true;
+    for (std::size_t i = 0; i < visits.size(); ++i) {
+      const Visit &a = visits[i], &b = visits[(i + 1) % visits.size()];
+      is_clear &= a.enters != b.enters && (i + 1 == visits.size() || b.place.along - a.place.along > 0x1p-30);
+    }
+    if (is_clear) return match_run(visits, !visits.front().enters);
     int votes = 0;  // one place may lie on the border of the face, where that touches the circle
     for (const double part : {0.31, 0.52, 0.73})
       votes += holds(visits.front().face, patch, visits[begin].place.along - part * widest) ? 1 : -1;
@@ -59,7 +65,8 @@ bool Tracing::match(Visits visits, const Patch& patch, const HoldsAt& holds) {
     std::rotate(visits.begin(), visits.begin() + std::ptrdiff_t(begin), visits.end());
     return match_run(visits, inside);
   }
-  const auto second = std::find_if(visits.begin(), visits.end(), [&](const Visit& v) { return v.place.run > visits.front().place.run; });
+  const auto second = std::find_if(visits.begin(), visits.end(),
+                                   [&](const Visit& v) { return v.place.run > visits.front().place.run; });
   const Visits run(visits.begin(), second), rest(second, visits.end());
   const auto entries = std::count_if(run.begin(), run.end(), [](const Visit& v) { return v.enters; });
   // Only rounding puts one end on the other side of a cylinder's top.
@@ -67,12 +74,13 @@ bool Tracing::match(Visits visits, const Patch& patch, const HoldsAt& holds) {
   return match_run(run, false) && (rest.empty() || match_run(rest, false));
 }
 
-/// Entrances and exits alternate. Where rounding has them in another order, as at vertices on the level, the next one of the
-/// kind that is due goes first.
+/// Entrances and exits alternate. Where rounding has them in another order, as at vertices on the level, the next one
+/// of the kind that is due goes first.
 bool Tracing::match_run(Visits run, bool starts_inside) {
   bool inside = starts_inside;
   for (std::size_t i = 0; i < run.size(); ++i, inside = !inside) {
-    const auto due = std::find_if(run.begin() + std::ptrdiff_t(i), run.end(), [&](const Visit& v) { return v.enters != inside; });
+    const auto due =
+        std::find_if(run.begin() + std::ptrdiff_t(i), run.end(), [&](const Visit& v) { return v.enters != inside; });
     if (due == run.end()) return false;
     std::rotate(run.begin() + std::ptrdiff_t(i), due, due + 1);
   }
@@ -86,7 +94,8 @@ bool Tracing::match_run(Visits run, bool starts_inside) {
 }
 
 bool Tracing::meets(Index f) const {
-  const auto at = std::lower_bound(visits_.begin(), visits_.end(), f, [](const Visit& v, Index face) { return v.face < face; });
+  const auto at =
+      std::lower_bound(visits_.begin(), visits_.end(), f, [](const Visit& v, Index face) { return v.face < face; });
   return at != visits_.end() && at->face == f;
 }
 

@@ -8,17 +8,17 @@
 
 namespace krepl::section {
 
-/// How a cut runs from crossing to crossing: which of them it enters faces by, and by which it leaves these. High, or left of the
-/// line, is left of it.
+/// How a cut runs from crossing to crossing: which of them it enters faces by, and by which it leaves these. High, or
+/// left of the line, is left of it.
 class Tracing {
  public:
   explicit Tracing(const Parts& parts) : parts_(parts) {}
 
   std::vector<Crossing> crossings;  ///< by edge, ascending, and along it
 
-  /// Pairs what enters each face with what leaves it, by their order along the cut: `place` tells it. Faces without a patch are
-  /// left out. False if numbers differ, which does not happen where neighbours agree.
-  /// On a curve that is closed, a circle by its angle, `holds` tells what it is inside a face between crossings.
+  /// Pairs what enters each face with what leaves it, by their order along the cut: `place` tells it. Faces without a
+  /// patch are left out. False if numbers differ, which does not happen where neighbours agree. On a curve that is
+  /// closed, a circle by its angle, `holds` tells what it is inside a face between crossings.
   using PlaceOf = std::function<Patch::Place(const Patch&, const Crossing&)>;
   using HoldsAt = std::function<bool(Index face, const Patch&, double angle)>;
   [[nodiscard]] bool pair(const PlaceOf& place, const HoldsAt& holds);

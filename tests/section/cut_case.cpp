@@ -17,9 +17,7 @@ std::string text_of(double x) {
   return text.str();
 }
 
-std::string at(Point3 p) {
-  return " at " + text_of(p.x) + ", " + text_of(p.y) + ", " + text_of(p.z);
-}
+std::string at(Point3 p) { return " at " + text_of(p.x) + ", " + text_of(p.y) + ", " + text_of(p.z); }
 
 /// The ring as a polygon, fine enough to tell the inside but very near the boundary.
 std::vector<Point3> fine_ring(std::span<const CutPiece> ring, double error) {
@@ -120,7 +118,8 @@ std::shared_ptr<const Terrain> grid_of(std::size_t columns, std::size_t rows,
   for (std::size_t r = 0; r < rows; ++r) {
     for (std::size_t c = 0; c < columns; ++c) heights.push_back(height(c, r));
   }
-  Result<Terrain> terrain = Terrain::from_grid({columns, rows, {0, 0}, 1, 1, Terrain::Split::rising}, std::move(heights));
+  Result<Terrain> terrain =
+      Terrain::from_grid({columns, rows, {0, 0}, 1, 1, Terrain::Split::rising}, std::move(heights));
   return std::make_shared<const Terrain>(std::move(*terrain));
 }
 
@@ -144,15 +143,18 @@ std::optional<std::string> fault_of(const CutCase& c, const Contour& contour, in
       for (const double s : {0.0, 0.01, 0.25, 0.5, 0.77, 0.99}) {
         const Point3 p = piece.at(s);
         if (!c.passes(p, tolerance) && !(piece.wall && c.is_at_tangent_walls(p, tolerance)))
-          return (piece.wall ? "below a rim the surface is " : "the surface is ") + text_of(c.height({p.x, p.y})) + at(p);
+          return (piece.wall ? "below a rim the surface is " : "the surface is ") + text_of(c.height({p.x, p.y})) +
+                 at(p);
       }
     }
     rings.push_back(fine_ring(ring, 1e-6 * c.scale()));
   }
   for (std::size_t r = 0; r < rings.size(); ++r) {
     std::size_t depth = 0;
-    for (std::size_t parent = contour.ring_parent[r]; parent != Contour::none; parent = contour.ring_parent[parent]) ++depth;
-    if (contour.ring_is_hole[r] != (depth % 2 == 1)) return "a ring of depth " + std::to_string(depth) + " is the wrong way round" + at(rings[r][0]);
+    for (std::size_t parent = contour.ring_parent[r]; parent != Contour::none; parent = contour.ring_parent[parent])
+      ++depth;
+    if (contour.ring_is_hole[r] != (depth % 2 == 1))
+      return "a ring of depth " + std::to_string(depth) + " is the wrong way round" + at(rings[r][0]);
   }
   const Point3 low = c.terrain->lowest(), high = c.terrain->highest();
   const double radius = c.surface->radius();
@@ -182,7 +184,9 @@ std::optional<std::string> fault_of(const CutCase& c, const Section& section, in
     for (std::size_t i = 0; i < chain.size(); ++i) {
       const CutPiece& piece = chain[i];
       if (i > 0 && !(chain[i - 1].end == piece.start)) return "a chain does not connect" + at(piece.start);
-      if (along(piece.start) < last - tolerance || along(piece.end) < along(piece.start) - tolerance)
+      // Where curves are tangent vertices are known along them to the root of the surface's tolerance only.
+      const double back = 0x1p-22 * c.scale();
+      if (along(piece.start) < last - back || along(piece.end) < along(piece.start) - back)
         return "a piece runs backwards" + at(piece.start);
       last = along(piece.end);
       for (const double s : {0.0, 0.01, 0.3, 0.5, 0.75, 0.99, 1.0}) {
