@@ -6,14 +6,17 @@
 #include <map>
 #include <memory>
 
+#include "feature_buffer.hpp"
 #include "input/gcode_reader.hpp"
 #include "input/geometry_source.hpp"
 #include "input/profile_reader.hpp"
 #include "input/result_file.hpp"
 #include "input/subdivision_file.hpp"
+#include "network_options.hpp"
 #include "krepl/cutter.hpp"
 #include "terrain_options.hpp"
 #include "verbs.hpp"
+#include "verify_features.hpp"
 #include "verify/input_parts.hpp"
 #include "verify/path_verifier.hpp"
 #include "verify/profile_verifier.hpp"
@@ -30,6 +33,7 @@ struct VerifyOptions {
   std::string radius, max_error, tool, control_point;
   TerrainOptions terrain;
   std::uint64_t samples = 0;
+  FeatureOptions features;
 };
 
 /// Polygons by radius: a file may hold several zones, and a zone may be spread over several features.
@@ -55,7 +59,9 @@ Result<ZonesByRadius> group(std::vector<input::ResultZone> zones, const std::vec
   return groups;
 }
 
-void print(Session& session, const std::vector<verify::Check>& checks) {
+}  // namespace
+
+void print_checks(Session& session, const std::vector<verify::Check>& checks) {
   session.summary(
       fmt::format("{:<28} {:>9} {:>7} {:>10} {:>10}  {}", "check", "tested", "wrong", "worst", "allowed", "worst at"));
   for (const verify::Check& check : checks) {
@@ -67,12 +73,14 @@ void print(Session& session, const std::vector<verify::Check>& checks) {
   }
 }
 
+namespace {
+
 void print(Session& session, const verify::ZoneReport& report) {
   session.summary(fmt::format("zone of radius {}: {} polygons, {} holes, {} pieces, {} of them arcs", report.radius,
                               report.polygons, report.holes, report.pieces, report.arcs));
   session.summary(fmt::format("area {:.15g}, length {:.15g}, S {:.6g}, tolerance {:.2g}", report.area, report.perimeter,
                               report.scale, report.tolerance));
-  print(session, report.checks);
+  print_checks(session, report.checks);
 }
 
 void print(Session& session, const verify::ProfileReport& report) {
@@ -80,7 +88,7 @@ void print(Session& session, const verify::ProfileReport& report) {
       fmt::format("profile of radius {}: {} segments in, {} pieces out, {} of them arcs, {} explicit vertices",
                   report.radius, report.segments, report.pieces, report.arcs, report.explicit_vertices));
   session.summary(fmt::format("S {:.6g}, tolerance {:.2g}", report.scale, report.tolerance));
-  print(session, report.checks);
+  print_checks(session, report.checks);
 }
 
 void print(Session& session, const verify::SurfaceReport& report) {
@@ -89,7 +97,7 @@ void print(Session& session, const verify::SurfaceReport& report) {
       report.radius, report.triangles, report.faces, report.edges, report.vertices, report.components, report.holes));
   session.summary(fmt::format("area of the projection {:.12g}, S {:.6g}, tolerance {:.2g}", report.area, report.scale,
                               report.tolerance));
-  print(session, report.checks);
+  print_checks(session, report.checks);
 }
 
 /// "is not the WHAT of radius R: names of the broken checks, near X Y".
@@ -105,9 +113,20 @@ Error violation(const char* what, double radius, const std::vector<verify::Check
   return error;
 }
 
+/// All polygons are one zone, whose radius is the largest of the features'.
+ZonesByRadius as_one_zone(std::vector<input::ResultZone> zones, const std::vector<verify::InputPart>& parts) {
+  double largest = 0;
+  for (const verify::InputPart& part : parts) largest = std::max(largest, part.radius);
+  ZonesByRadius all;
+  for (input::ResultZone& zone : zones)
+    std::move(zone.polygons.begin(), zone.polygons.end(), std::back_inserter(all[largest]));
+  return all;
+}
+
 int verify_zones(const VerifyOptions& options, Session& session) {
   std::vector<double> radii;
-  if (!options.radius.empty()) {
+  const bool varied = !options.input.radius_field.empty() || !options.input.radius_expression.empty();
+  if (!options.radius.empty() && !varied) {
     auto parsed = parse_radii(options.radius);
     if (!parsed) return session.fail("", parsed.error());
     radii = std::move(*parsed);
@@ -119,16 +138,20 @@ int verify_zones(const VerifyOptions& options, Session& session) {
     if (!parsed) return session.fail("", parsed.error());
     check.max_error = *parsed;
   }
+  const FeatureOptions& f = options.features;
+  if (f.per_feature || !f.dissolve_by.empty() || !f.owner.empty())
+    return verify_features({options.result, options.input, f, radii, check.max_error, options.samples}, session);
   auto zones = input::read_zones(options.result);
   if (!zones) return session.fail(options.result, zones.error());
-  auto groups = group(std::move(*zones), radii);
-  if (!groups) return session.fail(options.result, groups.error());
-  if (groups->empty()) return session.fail(options.result, {ErrorCode::input, "holds no zone", "", ""});
   auto parts = verify::read_parts(options.input, session.context("reading"));
   session.finish_progress();
   if (!parts) return session.fail(options.input.path, parts.error());
+  Result<ZonesByRadius> groups =
+      varied ? Result<ZonesByRadius>(as_one_zone(std::move(*zones), *parts)) : group(std::move(*zones), radii);
+  if (!groups) return session.fail(options.result, groups.error());
+  if (groups->empty()) return session.fail(options.result, {ErrorCode::input, "holds no zone", "", ""});
 
-  const verify::Obstacle obstacle(*parts);
+  const verify::Obstacle obstacle(*parts, groups->rbegin()->first);
   int status = 0;
   for (const auto& [radius, polygons] : *groups) {
     check.radius = radius;
@@ -264,7 +287,11 @@ bool is_tool_path(const std::string& extension) {
   return extension == "ngc" || extension == "nc" || extension == "gcode" || extension == "tap";
 }
 
-int run_verify(const VerifyOptions& options, Session& session) {
+int run_verify(const VerifyOptions& given, Session& session) {
+  VerifyOptions options = given;
+  if (is_radius_expression(options.radius)) options.input.radius_expression = options.radius;
+  if (!options.radius.empty() && !options.input.radius_field.empty())
+    return session.fail("", {ErrorCode::usage, "--radius and --radius-field exclude each other", "", "give one of them"});
   const std::string extension = input::format_extension(options.result);
   if (is_tool_path(extension)) return verify_path(options, session);
   if (!options.tool.empty() || !options.control_point.empty())
@@ -286,14 +313,21 @@ void add_verify_verb(CLI::App& program, Session& session) {
   verb->add_option("--against", options->input.path, "The input that the result was made from")
       ->required()
       ->type_name("IN");
-  verb->add_option("--radius", options->radius, "Radius or radii; may be left out where the result tells them")
+  verb->add_option("--radius", options->radius, "Radius or radii, or an expression of the input's fields; may be left out where the result tells them")
       ->type_name("R");
+  verb->add_option("--radius-field", options->input.radius_field, "Field of the input that holds each feature's radius")
+      ->type_name("NAME");
+  verb->add_flag("--per-feature", options->features.per_feature, "The result was made with --per-feature");
+  verb->add_option("--dissolve-by", options->features.dissolve_by, "The result was made with --dissolve-by FIELD")
+      ->type_name("FIELD");
+  verb->add_option("--owner", options->features.owner, "The result was made with --owner nearest")->type_name("NAME");
   verb->add_option("--layer", options->input.layer, "Layer of the input")->type_name("NAME");
   verb->add_option("--where", options->input.where, "Condition on the input's fields (OGR SQL)")->type_name("SQL");
   verb->add_option("--crs", options->input.crs, "Coordinate system of the input, in place of its own")
       ->type_name("CRS");
   verb->add_option("--to-crs", options->input.to_crs, "Projection that the result was made with")
       ->type_name("CRS|auto");
+  add_arc_option(*verb, options->input.arc_error);
   verb->add_option("--samples", options->samples,
                    "Number of points whose membership is tested, or at which the ball is let down (default: some "
                    "seconds' worth)")

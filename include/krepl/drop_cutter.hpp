@@ -90,6 +90,7 @@ class DropCutter {
   Status at(const Raster& raster, std::span<Contact> contacts, const Context& context = {}) const;
 
  private:
+  friend class DropCutterAccess;
   class Hierarchy;
   template <class Tree, class Tool>
   class TileWork;

@@ -17,6 +17,10 @@
 
 namespace krepl {
 
+namespace zone {
+struct VariedSites;
+}
+
 /// How often each rung of the ladder of predicates decided, and what the search cost. Printed by `krepl --verbose`.
 struct ZoneCounters {
   std::uint64_t elements = 0;          ///< offset sides and vertex arcs examined
@@ -39,13 +43,14 @@ class Zone {
   enum class Kind : std::uint8_t { segment, arc };
 
   /// One true piece of the boundary, in absolute coordinates. An arc runs counter-clockwise from start to end about
-  /// center with the zone's radius (start == end: the full circle).
+  /// center (start == end: the full circle).
   struct Piece {
     Kind kind;
     Point start, end;
     Point center;          ///< arcs only
     std::uint32_t source;  ///< the segment (kind segment) or vertex (kind arc) of network() that causes it
     bool reversed;         ///< segments only: the piece runs from the source segment's b to its a
+    double radius = 0;     ///< of the disk that the source is widened by
   };
 
   /// A connected part of the zone: one outer ring and its holes.
@@ -54,7 +59,10 @@ class Zone {
     std::span<const std::uint32_t> holes;
   };
 
+  /// Of the disk; the largest where the parts of the network have radii of their own.
   double radius() const { return radius_; }
+  /// The smallest.
+  double least_radius() const;
   /// Largest of radius and extent: the S of the accuracy contract.
   double scale() const;
   const Network& network() const { return *network_; }
@@ -85,6 +93,7 @@ class Zone {
 
   double radius_ = 0;
   std::shared_ptr<const Network> network_;
+  std::shared_ptr<const zone::VariedSites> varied_;  // none where there is one radius
   std::vector<Point> vertex_;           // relative to the network's origin; vertex e starts piece e
   std::vector<std::uint32_t> element_;  // per piece: the boundary element it lies on
   std::vector<std::uint32_t> ring_begin_;
@@ -106,6 +115,13 @@ struct ZoneOptions {
 /// Polygons of the network are filled. Errors: radius not finite and positive, or finer than the coordinates' resolution;
 /// cancelled; a result that does not certify. Expected O(n log n); memory about 300 bytes per segment at most.
 Result<Zone> compute_zone(std::shared_ptr<const Network> network, const ZoneOptions& options,
+                          const Context& context = {});
+
+/// The same with a radius for each part of the network (part_radii[p] for network->part(p)): the union of the parts'
+/// own zones, with true arcs of their radii. Where parts share a segment, the largest of their radii counts for it. All
+/// radii equal: the same zone, to the last bit, as with that one. Rings of one feature should have one radius, for a
+/// polygon is filled whole. Errors also: not one radius for each part.
+Result<Zone> compute_zone(std::shared_ptr<const Network> network, std::span<const double> part_radii,
                           const Context& context = {});
 
 }  // namespace krepl

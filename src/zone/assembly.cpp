@@ -8,7 +8,8 @@ using zone::Index;
 using zone::none;
 
 Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, const zone::Instance& instance,
-                                  zone::Rings rings, double resolution, ZoneCounters counters, const Context& context) {
+                                  zone::Rings rings, double resolution, ZoneCounters counters, const Context& context,
+                                  std::shared_ptr<const zone::VariedSites> varied) {
   const Error cancelled{ErrorCode::cancelled, "cancelled", "", ""};
   if (context.cancelled()) return cancelled;
   rings = zone::contract(instance, std::move(rings), resolution, context, counters);
@@ -16,7 +17,9 @@ Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, const 
   if (context.cancelled()) return cancelled;
   const auto nesting = zone::nest(instance, rings, context);
   if (!nesting) return nesting.error();
-  return assemble(std::move(network), instance.nominal_radius(), std::move(rings), *nesting, counters, context);
+  Zone zone = assemble(std::move(network), instance.nominal_radius(), std::move(rings), *nesting, counters, context);
+  zone.varied_ = std::move(varied);
+  return zone;
 }
 
 Zone ZoneAssembly::assemble(std::shared_ptr<const Network> network, double radius, zone::Rings rings,

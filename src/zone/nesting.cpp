@@ -6,6 +6,7 @@
 
 #include "kernel/box_tree.hpp"
 #include "kernel/parallel.hpp"
+#include "zone/polygon_locator.hpp"
 
 namespace krepl::zone {
 namespace {
@@ -20,7 +21,7 @@ double cross(Point o, Point p, Point q) { return (p.x - o.x) * (q.y - o.y) - (p.
 /// Everything about one piece that the ray needs.
 class PieceShape {
  public:
-  PieceShape(const Instance& in, Index element, Point p, Point q) : p_(p), q_(q), radius_(in.nominal_radius()) {
+  PieceShape(const Instance& in, Index element, Point p, Point q) : p_(p), q_(q), radius_(in.nominal_radius_of(element)) {
     arc_ = !in.is_side(element);
     if (arc_) centre_ = in.vertices()[in.vertex_of(element)];
   }
@@ -183,47 +184,13 @@ Result<Nesting> nest(const Instance& in, const Rings& rings, const Context& cont
 }
 
 Rings drop_rings_inside_polygons(const Network& network, Rings rings) {
-  struct Side {
-    Point p, q;
-    std::int64_t feature;
-  };
-  std::vector<Side> sides;
-  for (Index part = 0; part < network.part_count(); ++part) {
-    if (!network.part_is_ring(part)) continue;
-    const auto chain = network.part(part);
-    for (std::size_t i = 0; i < chain.size(); ++i) {
-      const Index a = chain[i], b = chain[(i + 1) % chain.size()];
-      if (a != b) sides.push_back({network.vertices()[a], network.vertices()[b], network.part_feature(part)});
-    }
-  }
-  std::vector<Box> boxes((sides.size() + chunk - 1) / chunk);
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    boxes[i / chunk].add(sides[i].p);
-    boxes[i / chunk].add(sides[i].q);
-  }
-  const kernel::BoxTree tree(std::move(boxes));
-  std::vector<std::int64_t> hits;
-  const auto inside = [&](Point p) {
-    hits.clear();
-    tree.visit_left_of(p, [] { return -infinity; }, [&](std::size_t box) {
-      for (std::size_t i = box * chunk; i < std::min(sides.size(), (box + 1) * chunk); ++i) {
-        const Side& s = sides[i];
-        if ((s.p.y <= p.y) == (s.q.y <= p.y)) continue;
-        const bool upward = s.p.y < s.q.y;
-        if ((cross(s.p, s.q, p) < 0) == upward) hits.push_back(s.feature);
-      }
-    });
-    std::sort(hits.begin(), hits.end());
-    for (std::size_t i = 0, j = 0; i < hits.size(); i = j) {
-      while (j < hits.size() && hits[j] == hits[i]) ++j;
-      if ((j - i) % 2 == 1) return true;
-    }
-    return false;
-  };
+  const PolygonLocator polygons(network);
+  std::vector<std::int64_t> around;
   Rings kept;
   for (Index r = 0; r < rings.ring_count(); ++r) {
     const auto first = rings.begin[r], last = rings.begin[r + 1];
-    if (inside(rings.vertex[first])) continue;
+    polygons.find(rings.vertex[first], around);
+    if (!around.empty()) continue;
     kept.element.insert(kept.element.end(), rings.element.begin() + first, rings.element.begin() + last);
     kept.vertex.insert(kept.vertex.end(), rings.vertex.begin() + first, rings.vertex.begin() + last);
     kept.begin.push_back(Index(kept.element.size()));
