@@ -24,7 +24,7 @@ std::vector<DxfDocument::Vertex> ring_vertices(const Zone& zone, std::uint32_t r
 }
 
 std::string layer_name(const Zone& zone, bool hole) {
-  return fmt::format("ZONE_{}{}", zone.radius(), hole ? "_HOLES" : "");
+  return fmt::format("ZONE_{}{}", zone.signed_radius(), hole ? "_HOLES" : "");
 }
 
 }  // namespace

@@ -15,11 +15,17 @@ double sweep_angle(Point c, Point p, Point q) {
   return angle > 0 ? angle : angle + 2 * M_PI;
 }
 
+/// The angle that an arc spans, positive if it runs counter-clockwise.
+double signed_angle(const Zone::Piece& arc) {
+  return arc.clockwise ? -sweep_angle(arc.center, arc.end, arc.start) : sweep_angle(arc.center, arc.start, arc.end);
+}
+
 }  // namespace
 
 double Zone::scale() const { return std::max(radius_, network_->extent()); }
 
 Zone::Piece Zone::local_piece(std::uint32_t e) const {
+  if (!shaped_.empty()) return shaped_[e];
   const auto ring = std::upper_bound(ring_begin_.begin(), ring_begin_.end(), e);
   const std::uint32_t next = e + 1 < *ring ? e + 1 : *(ring - 1);
   Piece p{Kind::segment, vertex_[e], vertex_[next], {}, 0, false};
@@ -30,6 +36,7 @@ Zone::Piece Zone::local_piece(std::uint32_t e) const {
   } else {
     p.kind = Kind::arc;
     p.source = std::uint32_t(element_[e] - sides);
+    p.from_vertex = true;
     p.center = network_->vertices()[p.source];
   }
   return p;
@@ -60,7 +67,7 @@ double Zone::ring_area(std::uint32_t r) const {
     const Piece p = local_piece(e);
     twice += (p.start.x - o.x) * (p.end.y - o.y) - (p.start.y - o.y) * (p.end.x - o.x);
     if (p.kind == Kind::arc) {
-      const double angle = sweep_angle(p.center, p.start, p.end);
+      const double angle = signed_angle(p);
       twice += radius_ * radius_ * (angle - std::sin(angle));
     }
   }
@@ -77,7 +84,7 @@ double Zone::perimeter() const {
   double sum = 0;
   for (std::uint32_t e = 0; e < piece_count(); ++e) {
     const Piece p = local_piece(e);
-    sum += p.kind == Kind::arc ? radius_ * sweep_angle(p.center, p.start, p.end) : distance(p.start, p.end);
+    sum += p.kind == Kind::arc ? radius_ * std::abs(signed_angle(p)) : distance(p.start, p.end);
   }
   return sum;
 }
@@ -87,7 +94,7 @@ std::optional<std::string> Zone::validate() const {
   // Where the coordinates themselves are coarser than the contract, they set the measure.
   const double tolerance = std::max(1e-9 * scale(), 16 * network_->resolution());
   for (std::uint32_t e = 0; e < piece_count(); ++e) {
-    const Piece p = local_piece(e);
+    Piece p = local_piece(e);
     const auto complain = [&](const char* what) {
       return std::string(what) + " at piece " + std::to_string(e) + ", near x " +
              std::to_string(p.start.x + network_->origin().x) + ", y " +
@@ -100,7 +107,9 @@ std::optional<std::string> Zone::validate() const {
       }
       continue;
     }
+    if (p.role != Role::offset || p.from_vertex) continue;
     // Both ends of a segment are on the offset line of its source, and it runs with it.
+    if (inward_) std::swap(p.start, p.end);  // what was outside is inside
     const auto s = network_->segments()[p.source];
     Point a = network_->vertices()[s.a], b = network_->vertices()[s.b];
     if (p.reversed) std::swap(a, b);
