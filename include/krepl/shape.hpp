@@ -13,7 +13,7 @@
 
 namespace krepl {
 
-/// How a zone ends where a line ends. A vertex where other lines go on is no end.
+/// How a zone ends where a line ends: at a vertex that all segments leave in one direction (within 2^-20).
 enum class Cap : std::uint8_t {
   round,  ///< by a half circle about the end
   flat,   ///< straight across through the end; a point has no zone

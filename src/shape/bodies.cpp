@@ -10,7 +10,7 @@ using Q = Vector<quad>;
 using kernel::square_root;
 
 // Where a line turns by less, in radians, bevel, arc and mitre differ by less than 2^-43 R: the arc serves for all. Where it
-// turns back by all but this, no base is left between its segments.
+// turns back by all but this, it ends.
 constexpr double straight = 0x1p-20;
 
 Q operator+(Q a, Q b) { return {a.x + b.x, a.y + b.y}; }
@@ -38,12 +38,12 @@ Bodies::Bodies(const Network& network, const zone::Instance& instance, const Sha
       options_(options),
       radius_(instance.radius()),
       nominal_radius_(instance.nominal_radius()),
-      degree_(network.vertices().size(), 0) {
+      is_end_(network.vertices().size(), false) {
   scale_ = network.extent() + 2 * radius_ * (options.join == Join::mitre ? options.mitre_limit : 1.0);
   const double most = 0x1p-62 * scale_;
   const auto segments = network.segments();
   std::vector<Index> begin(network.vertices().size() + 1, 0);
-  for (const auto s : segments) ++begin[s.a + 1], ++begin[s.b + 1], ++degree_[s.a], ++degree_[s.b];
+  for (const auto s : segments) ++begin[s.a + 1], ++begin[s.b + 1];
   for (std::size_t v = 0; v + 1 < begin.size(); ++v) begin[v + 1] += begin[v];
   std::vector<Index> leaving(2 * segments.size());
   {
@@ -86,27 +86,27 @@ void Bodies::add_joins(Index v, const std::vector<Arm>& arms) {
     if (options_.cap == Cap::square) specs_.push_back({Kind::square, false, v, none, 0, most});
     return;
   }
-  if (arms.size() == 1) {
-    const double overlap = std::min(arms[0].length, radius_) / 2;
-    if (options_.cap == Cap::round)
-      specs_.push_back({Kind::cap, true, arms[0].side ^ 1u, arms[0].side, overlap, std::min(most, 0x1p-10 * overlap)});
-    return;
-  }
   const auto sector = in_.sector(v);
   if (sector.before == none) return;
   const Q d = direction(sector.before), e = direction(sector.after);
   const double turn = std::atan2(double(cross(d, e)), double(dot(d, e)));
   const double angle = turn < -1 ? M_PI : std::max(turn, 0.0);  // rounding may carry 180 and 0 degrees over
-  const bool folded = angle > M_PI - straight;
+  const bool folded = arms.size() == 1 || angle > M_PI - straight;
   const double overlap = std::min({length(sector.before), length(sector.after), radius_}) / 2;
+  if (folded) {
+    is_end_[v] = true;
+    if (options_.cap == Cap::round)
+      specs_.push_back({Kind::cap, true, sector.before, sector.after, overlap, std::min(most, 0x1p-10 * overlap)});
+    return;
+  }
   Kind kind = Kind::join;
   if (angle > straight && options_.join == Join::bevel) kind = Kind::bevel;
   if (angle > straight && options_.join == Join::mitre)
-    kind = 1 <= options_.mitre_limit * std::cos(angle / 2) * (1 + 1e-14) && !folded ? Kind::mitre : Kind::bevel;
+    kind = 1 <= options_.mitre_limit * std::cos(angle / 2) * (1 + 1e-14) ? Kind::mitre : Kind::bevel;
   // Moves must not turn a border by what comes near the angle to its neighbour.
-  const double sharpest = folded ? 1 : std::min(std::max(angle, straight), M_PI - angle) / 2;
+  const double sharpest = std::min(std::max(angle, straight), M_PI - angle) / 2;
   const double shortest = kind == Kind::join ? overlap : std::min(overlap, radius_ * std::sin(angle / 2));
-  specs_.push_back({kind, folded, sector.before, sector.after, overlap, std::min(most, 0x1p-10 * sharpest * sharpest * shortest)});
+  specs_.push_back({kind, false, sector.before, sector.after, overlap, std::min(most, 0x1p-10 * sharpest * sharpest * shortest)});
 }
 
 /// Where two segments go straight on, the rectangles' ends overlap by next to nothing on the side where they do.

@@ -65,7 +65,7 @@ class Bodies {
   enum class Kind : std::uint8_t { rectangle, join, bevel, mitre, cap, disc, square, seam };
   struct Spec {
     Kind kind;
-    bool folded = false;  // joins: so sharp that there is no room for a base
+    bool folded = false;  // a cap: the side after runs back along the side before
     Index a;              // rectangle: the segment; joins: the side before; else the vertex
     Index b = none;       // joins: the side after; seams: the second side
     double overlap = 0;   // how far the body reaches back along its segments
@@ -87,12 +87,12 @@ class Bodies {
   Vector<quad> at(Index vertex) const;
   Vector<quad> direction(Index side) const;
   double length(Index side) const;
-  bool is_end(Index vertex) const { return degree_[vertex] == 1; }
+  bool is_end(Index vertex) const { return is_end_[vertex]; }
 
   const zone::Instance& in_;
   ShapeOptions options_;
   double radius_, nominal_radius_, scale_;
-  std::vector<std::uint32_t> degree_;
+  std::vector<bool> is_end_;  // vertices: all segments leave in one direction
   std::vector<Spec> specs_;
 };
 

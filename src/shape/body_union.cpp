@@ -1,8 +1,10 @@
 #include "shape/body_union.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <list>
+#include <optional>
 #include <string>
 
 #include "kernel/parallel.hpp"
@@ -66,12 +68,18 @@ class Corners {
     return std::abs(double((d.x * v.y - d.y * v.x) / kernel::square_root(d.x * d.x + d.y * d.y)));
   }
 
+  /// Only borders about a common vertex may touch: all others are looked at by the enlarged radius where they nearly do,
+  /// as its topology tells where they cross.
   Point meet(BorderId from, BorderId to, Point seen) const {
     const Border<quad> a = nominal(from), b = nominal(to);
-    Vector<quad> found[2];
+    Vector<quad> found[2] = {};
     const double sine = a.arc ? (b.arc ? circles(a, b, found) : line_circle(b, a, found))
                               : (b.arc ? line_circle(a, b, found) : lines(a, b, found));
-    if (!(sine >= 0)) return seen;
+    if (sine < 0x1p-20 && a.key.kind == Key::Kind::side && b.key.kind == Key::Kind::side) {
+      // The line goes straight on, so that copies of its sides may change over anywhere near the vertex.
+      if (const auto at = straight_on(a, b)) return *at;
+    }
+    if (!(sine >= (are_incident(a.key, b.key) ? 0.0 : 1.0 / 16))) return seen;
     const double limit = 8 * enlargement_ / std::max(sine, 0x1p-20);
     const auto as_point = [](Vector<quad> v) { return Point{double(v.x), double(v.y)}; };
     Point best = as_point(found[0]);
@@ -82,6 +90,30 @@ class Corners {
 
  private:
   Border<quad> nominal(BorderId id) const { return bodies_.nominal(body_of(id)).border[place_of(id)]; }
+
+  /// Beside the common vertex of two sides, the first of which ends there.
+  std::optional<Point> straight_on(const Border<quad>& a, const Border<quad>& b) const {
+    const auto end = [&](const Key& key, bool last) {
+      const auto s = network_.segments()[key.index >> 1];
+      return ((key.index & 1u) != 0) == last ? s.a : s.b;
+    };
+    const Index vertex = end(a.key, true);
+    if (vertex != end(b.key, false)) return std::nullopt;
+    const Vector<quad> d{a.q.x - a.p.x, a.q.y - a.p.y};
+    const quad scale = bodies_.nominal_radius() / kernel::square_root(d.x * d.x + d.y * d.y);
+    const Point v = network_.vertices()[vertex];
+    return Point{double(v.x + scale * d.y), double(v.y - scale * d.x)};
+  }
+
+  bool are_incident(const Key& a, const Key& b) const {
+    const auto ends = [&](const Key& key) {
+      if (key.kind != Key::Kind::side) return std::array{key.index, key.index};
+      const auto s = network_.segments()[key.index >> 1];
+      return std::array{s.a, s.b};
+    };
+    const auto p = ends(a), q = ends(b);
+    return p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1];
+  }
 
   /// These return the sine of the angle at which the two meet; below zero: nowhere.
   static double lines(const Border<quad>& a, const Border<quad>& b, Vector<quad> (&out)[2]) {
@@ -220,26 +252,39 @@ bool is_thin(const std::vector<Zone::Piece>& ring, double radius, double resolut
   return across <= 8 * resolution || std::abs(twice_area(ring, radius)) <= resolution * perimeter;
 }
 
-std::vector<Zone::Piece> pieces_of(const Network& network, const Bodies& bodies, const Corners& corners, const Chain& chain) {
+/// Moves the starts of all items to where their borders meet. Near a vertex where a line goes straight on, or an arc begins,
+/// that may be far along the boundary from where the moved bodies change over; what has no length left then is dropped, as
+/// an arc without would pass for a full circle. True if something was.
+bool settle(const Corners& corners, Chain& chain, double resolution) {
+  if (chain.size() < 2) return false;
+  BorderId before = chain.back().border;
+  for (Item& item : chain) {
+    item.start = corners.meet(before, item.border, item.start);
+    before = item.border;
+  }
+  bool dropped = false;
+  for (auto i = chain.begin(); i != chain.end() && chain.size() > 1;) {
+    const auto next = std::next(i) == chain.end() ? chain.begin() : std::next(i);
+    if (!i->wide && distance(i->start, next->start) <= resolution) {
+      i = chain.erase(i);
+      dropped = true;
+    } else {
+      ++i;
+    }
+  }
+  return dropped;
+}
+
+std::vector<Zone::Piece> pieces_of(const Network& network, double radius, const Chain& chain) {
   std::vector<Zone::Piece> pieces;
   if (chain.size() == 1) {  // a full circle, or nothing
     const Item& only = chain.front();
-    if (only.key.kind != Key::Kind::circle) return pieces;
-    const Point c = network.vertices()[only.key.index], start{c.x + bodies.nominal_radius(), c.y};
+    if (only.key.kind != Key::Kind::circle || !only.wide) return pieces;
+    const Point c = network.vertices()[only.key.index], start{c.x + radius, c.y};
     return {as_piece(network, only, start, start)};
   }
-  std::vector<Point> corner;
-  const Item* before = &chain.back();
-  for (const Item& item : chain) {
-    corner.push_back(corners.meet(before->border, item.border, item.start));
-    before = &item;
-  }
-  std::size_t i = 0;
-  for (const Item& item : chain) {
-    const std::size_t next = i + 1 < corner.size() ? i + 1 : 0;
-    pieces.push_back(as_piece(network, item, corner[i], corner[next]));
-    i = next;
-  }
+  for (auto i = chain.begin(); i != chain.end(); ++i)
+    pieces.push_back(as_piece(network, *i, i->start, (std::next(i) == chain.end() ? chain.begin() : std::next(i))->start));
   return pieces;
 }
 
@@ -264,8 +309,10 @@ Result<ShapedRings> body_union(const Network& network, const Bodies& bodies, dou
       const Key key = bodies.nominal(body_of(all[i].border)).border[place_of(all[i].border)].key;
       chain.push_back({key, all[i].border, all[i].start, all[i].wide});
     }
-    counters.collapsed_pieces += contraction.run(chain);
-    const auto pieces = pieces_of(network, bodies, corners, chain);
+    do {
+      counters.collapsed_pieces += contraction.run(chain);
+    } while (settle(corners, chain, resolution));
+    const auto pieces = pieces_of(network, bodies.nominal_radius(), chain);
     const bool wide = std::any_of(chain.begin(), chain.end(), [](const Item& i) { return i.wide; });
     if (is_thin(pieces, bodies.nominal_radius(), resolution, wide)) {
       ++counters.dropped_rings;

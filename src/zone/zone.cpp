@@ -94,7 +94,7 @@ std::optional<std::string> Zone::validate() const {
   // Where the coordinates themselves are coarser than the contract, they set the measure.
   const double tolerance = std::max(1e-9 * scale(), 16 * network_->resolution());
   for (std::uint32_t e = 0; e < piece_count(); ++e) {
-    Piece p = local_piece(e);
+    const Piece p = local_piece(e);
     const auto complain = [&](const char* what) {
       return std::string(what) + " at piece " + std::to_string(e) + ", near x " +
              std::to_string(p.start.x + network_->origin().x) + ", y " +
@@ -109,14 +109,14 @@ std::optional<std::string> Zone::validate() const {
     }
     if (p.role != Role::offset || p.from_vertex) continue;
     // Both ends of a segment are on the offset line of its source, and it runs with it.
-    if (inward_) std::swap(p.start, p.end);  // what was outside is inside
     const auto s = network_->segments()[p.source];
     Point a = network_->vertices()[s.a], b = network_->vertices()[s.b];
     if (p.reversed) std::swap(a, b);
     const double length = distance(a, b), ux = (b.x - a.x) / length, uy = (b.y - a.y) / length;
     for (const Point q : {p.start, p.end}) {
       const double off = (q.x - a.x) * uy - (q.y - a.y) * ux;
-      if (!(std::abs(off - radius_) <= tolerance)) return complain("a segment is off its offset line");
+      // Where a polygon was shrunk the zone is on the other side.
+      if (!(std::abs((inward_ ? std::abs(off) : off) - radius_) <= tolerance)) return complain("a segment is off its offset line");
     }
     if ((p.end.x - p.start.x) * ux + (p.end.y - p.start.y) * uy < -tolerance) return complain("a segment runs backwards");
   }
