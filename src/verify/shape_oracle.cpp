@@ -44,6 +44,7 @@ std::vector<ShapeOracle::Corner> ShapeOracle::corners_of(const std::vector<Input
       return;
     }
     if (border_only && count[key(part, a, b)] % 2 == 0) return;
+    if (arms[coordinates(a)].contains(coordinates(b))) return;  // of lines that run along each other the first counts
     arms[coordinates(a)][coordinates(b)].first = true;
     arms[coordinates(b)][coordinates(a)].second = true;
   });

@@ -78,5 +78,24 @@ TEST(ShapeZones, ShrunkPolygonsAndRings) {
   EXPECT_GT(double(split), 10 * effort());
 }
 
+TEST(ShapeZones, OneSideOfEveryFamily) {
+  std::mt19937_64 random(seed() + 2);
+  for (int f = 0; f < int(Family::count); ++f) {
+    if (Family(f) == Family::rings || Family(f) == Family::grid_points) continue;
+    for (int k = 0; k < int(25 * effort()); ++k) {
+      const ZoneCase c = random_case(Family(f), random);
+      ShapeOptions o;
+      o.distance = c.radius, o.side = k % 2 == 0 ? Side::left : Side::right;
+      o.max_error = 1e-6 * c.radius;
+      SCOPED_TRACE(text(c) + " " + text(o));
+      const auto zone = shape_of(c, o);
+      EXPECT_TRUE(zone.ok()) << zone.error().text();
+      if (!zone) continue;
+      const auto fault = fault_in(*zone, c, o);
+      EXPECT_FALSE(fault.has_value()) << *fault;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace krepl::test
