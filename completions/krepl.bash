@@ -20,6 +20,9 @@ _krepl() {
       local engines="auto intervals voronoi"
       [[ $verb == terrain ]] && engines="auto incremental"
       mapfile -t COMPREPLY < <(compgen -W "$engines" -- "$current"); return ;;
+    --cap) mapfile -t COMPREPLY < <(compgen -W "round flat square" -- "$current"); return ;;
+    --join) mapfile -t COMPREPLY < <(compgen -W "round mitre bevel" -- "$current"); return ;;
+    --side) mapfile -t COMPREPLY < <(compgen -W "both left right" -- "$current"); return ;;
     --zones) mapfile -t COMPREPLY < <(compgen -W "sub-river stem whole" -- "$current"); return ;;
     --outlet) mapfile -t COMPREPLY < <(compgen -W "guess" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "mm cm m km in ft" -- "$current"); return ;;
@@ -33,7 +36,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit) return ;;
+    --radius | --distance | --snap | --grid | --flow-field | --where | --max-error | --max-clearance | --mitre-limit | --threads | --samples | --z-scale | --band | --cell | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit) return ;;
   esac
   local command=("$verb")
   if [[ $verb == lab ]]; then

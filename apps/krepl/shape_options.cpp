@@ -48,7 +48,10 @@ Status tell_faults(const Network& network, const std::string& in_name, Session& 
                                       f.count > 1 ? fmt::format(" ({} places)", f.count) : ""));
   }
   if (faults->size() > most) session.note(in_name, fmt::format("note: {} more faults of rings", faults->size() - most));
-  if (!faults->empty()) session.note(in_name, "note: what an odd number of rings of a feature enclose counts as inside");
+  const bool crossed = std::any_of(faults->begin(), faults->end(), [](const RingFault& f) {
+    return f.kind != RingFault::Kind::direction && f.kind != RingFault::Kind::collapsed;
+  });
+  if (crossed) session.note(in_name, "note: what an odd number of rings of a feature enclose counts as inside");
   return std::monostate{};
 }
 

@@ -10,6 +10,7 @@
 #include "input/profile_reader.hpp"
 #include "input/result_file.hpp"
 #include "input/subdivision_file.hpp"
+#include "shape_options.hpp"
 #include "terrain_options.hpp"
 #include "verbs.hpp"
 #include "verify/input_parts.hpp"
@@ -26,6 +27,7 @@ struct VerifyOptions {
   verify::InputRequest input;
   std::string radius, max_error;
   TerrainOptions terrain;
+  ShapeArguments shape;
   std::uint64_t samples = 0;
 };
 
@@ -102,10 +104,18 @@ Error violation(const char* what, double radius, const std::vector<verify::Check
   return error;
 }
 
+verify::ShapeQuestion shape_question(const ShapeOptions& shape, double radius) {
+  verify::ShapeQuestion question;
+  question.distance = radius, question.mitre_limit = shape.mitre_limit, question.ring = shape.ring;
+  question.cap = verify::ShapeQuestion::Cap(shape.cap), question.join = verify::ShapeQuestion::Join(shape.join);
+  question.side = verify::ShapeQuestion::Side(shape.side);
+  return question;
+}
+
 int verify_zones(const VerifyOptions& options, Session& session) {
   std::vector<double> radii;
   if (!options.radius.empty()) {
-    auto parsed = parse_radii(options.radius);
+    auto parsed = parse_signed_radii(options.radius);
     if (!parsed) return session.fail("", parsed.error());
     radii = std::move(*parsed);
   }
@@ -116,7 +126,9 @@ int verify_zones(const VerifyOptions& options, Session& session) {
     if (!parsed) return session.fail("", parsed.error());
     check.max_error = *parsed;
   }
-  auto zones = input::read_zones(options.result);
+  auto shape = parse_shape(options.shape);
+  if (!shape) return session.fail("", shape.error());
+  auto zones = input::read_zones(options.result, input::EmptyZones::keep);
   if (!zones) return session.fail(options.result, zones.error());
   auto groups = group(std::move(*zones), radii);
   if (!groups) return session.fail(options.result, groups.error());
@@ -129,7 +141,12 @@ int verify_zones(const VerifyOptions& options, Session& session) {
   int status = 0;
   for (const auto& [radius, polygons] : *groups) {
     check.radius = radius;
-    auto report = verify::check_zone(polygons, obstacle, check, session.context("checking"));
+    // Parabolas in the border of a one-sided zone are chords (docs/shape.md).
+    if (shape->side != Side::both && options.max_error.empty()) check.max_error = 2e-6 * radius;
+    const bool plain = is_plain(*shape, {radius});
+    auto report = plain ? verify::check_zone(polygons, obstacle, check, session.context("checking"))
+                        : verify::check_shape(polygons, *parts, shape_question(*shape, radius), check,
+                                              session.context("checking"));
     session.finish_progress();
     if (!report) return session.fail(options.result, report.error());
     print(session, *report);
@@ -227,6 +244,7 @@ void add_verify_verb(CLI::App& program, Session& session) {
                    "Number of points whose membership is tested, or at which the ball is let down (default: some "
                    "seconds' worth)")
       ->type_name("N");
+  add_shape_options(*verb, options->shape);
   verb->add_option("--max-error", options->max_error, "Deviation allowed to a format without arcs (default: none)")
       ->type_name("E");
   verb->add_option("--z-scale", options->terrain.z_scale, "Terrains: as the result was made")->type_name("FACTOR");

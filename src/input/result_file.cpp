@@ -85,14 +85,14 @@ std::int64_t integer_field(const OGRFeature& feature, const char* name) {
 /// With --separate a zone is several features, one a polygon, which agree in their radius.
 bool continues(const ResultZone& zone, std::optional<double> radius) { return radius && zone.radius == radius; }
 
-Result<std::vector<ResultZone>> collect_zones(GeometrySource& source) {
+Result<std::vector<ResultZone>> collect_zones(GeometrySource& source, EmptyZones empty) {
   std::vector<ResultZone> zones;
   for (;;) {
     auto item = source.next();
     if (!item) return item.error();
     if (!item->has_value()) break;
     const GeometrySource::Item& record = **item;
-    if (record.geometry == nullptr || record.geometry->IsEmpty()) continue;
+    if (record.geometry == nullptr || (record.geometry->IsEmpty() && empty == EmptyZones::drop)) continue;
     std::optional<double> radius = number_field(record.feature, "radius");
     auto known = std::find_if(zones.begin(), zones.end(), [&](const ResultZone& z) { return continues(z, radius); });
     if (known == zones.end()) {
@@ -171,7 +171,7 @@ Result<std::string> zone_layer(const std::vector<std::string>& layers) {
 
 }  // namespace
 
-Result<std::vector<ResultZone>> read_zones(const std::string& path) {
+Result<std::vector<ResultZone>> read_zones(const std::string& path, EmptyZones empty) {
   SourceSelection selection;
   bool has_pieces = false;
   std::string extension = format_extension(path);
@@ -185,7 +185,7 @@ Result<std::vector<ResultZone>> read_zones(const std::string& path) {
   }
   auto source = open_geometry_source(path, selection);
   if (!source) return source.error();
-  Result<std::vector<ResultZone>> zones = collect_zones(**source);
+  Result<std::vector<ResultZone>> zones = collect_zones(**source, empty);
   if (!zones || !has_pieces) return zones;
 
   Result<ProvenanceMap> provenance = read_provenance(path);

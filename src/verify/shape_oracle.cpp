@@ -198,11 +198,13 @@ bool ShapeOracle::on_side(const Corner& c, Vec direction) const {
 bool ShapeOracle::side_holds(Vec p) const {
   const auto hit = sides_.nearest(p);
   if (!(hit.distance <= radius_)) return false;
+  const auto vertex = corners_.nearest(p);
+  if (corners_.items()[vertex.item].arms.empty() && vertex.distance < hit.distance) return false;
   const Side& s = sides_.items()[hit.item];
   const Vec u = unit(s.b - s.a);
   const Real along = dot(p - s.a, u);
   if (along <= 0 || along >= verify::distance(s.a, s.b)) {  // a vertex is what is nearest
-    const Corner& c = corners_.items()[corners_.nearest(p).item];
+    const Corner& c = corners_.items()[vertex.item];
     return on_side(c, p - c.at);
   }
   // On the left of a b: on the left of lines that run from a to b.

@@ -150,7 +150,7 @@ Result<Zone> shape_of(const ZoneCase& c, const ShapeOptions& options) {
 std::optional<std::string> fault_in(const Zone& zone, const ZoneCase& c, const ShapeOptions& shape, double effort) {
   if (const auto wrong = zone.validate()) return "not valid: " + *wrong;
   verify::ZoneCheckOptions options;
-  options.effort = effort, options.max_error = shape.side == Side::both ? 0 : shape.max_error;
+  options.effort = effort, options.max_error = shape.side == Side::both ? 0 : 2 * shape.max_error;
   verify::ShapeQuestion question;
   question.distance = shape.distance, question.mitre_limit = shape.mitre_limit, question.ring = shape.ring;
   question.cap = verify::ShapeQuestion::Cap(shape.cap), question.join = verify::ShapeQuestion::Join(shape.join);
