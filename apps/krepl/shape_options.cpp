@@ -15,7 +15,8 @@ namespace krepl::app {
 namespace {
 
 template <class Choice>
-Result<Choice> choose(const char* option, const std::string& text, std::initializer_list<std::pair<const char*, Choice>> known) {
+Result<Choice> choose(const char* option, const std::string& text,
+                      std::initializer_list<std::pair<const char*, Choice>> known) {
   if (text.empty()) return known.begin()->second;
   std::string names;
   for (const auto& [name, choice] : known) {
@@ -27,11 +28,16 @@ Result<Choice> choose(const char* option, const std::string& text, std::initiali
 
 std::string text_of(RingFault::Kind kind) {
   switch (kind) {
-    case RingFault::Kind::crossing: return "sides cross";
-    case RingFault::Kind::touching: return "a ring touches itself";
-    case RingFault::Kind::overlapping: return "sides run along each other";
-    case RingFault::Kind::direction: return "a hole runs the same way round as an outer ring";
-    case RingFault::Kind::collapsed: return "a ring encloses nothing";
+    case RingFault::Kind::crossing:
+      return "sides cross";
+    case RingFault::Kind::touching:
+      return "a ring touches itself";
+    case RingFault::Kind::overlapping:
+      return "sides run along each other";
+    case RingFault::Kind::direction:
+      return "a hole runs the same way round as an outer ring";
+    case RingFault::Kind::collapsed:
+      return "a ring encloses nothing";
   }
   return "";
 }
@@ -61,8 +67,9 @@ void tell(const Zone& zone, double seconds, Session& session) {
                              zone.signed_radius(), zone.piece_count(), zone.ring_count(), zone.hole_count(),
                              zone.polygon_count()));
   if (c.elements == 0) return;
-  session.detail(fmt::format("predicates {} decided in double precision, {} in quadruple; {} pieces collapsed, {} rings dropped",
-                             c.elements_in_double, c.elements_in_quadruple, c.collapsed_pieces, c.dropped_rings));
+  session.detail(
+      fmt::format("predicates {} decided in double precision, {} in quadruple; {} pieces collapsed, {} rings dropped",
+                  c.elements_in_double, c.elements_in_quadruple, c.collapsed_pieces, c.dropped_rings));
 }
 
 }  // namespace
@@ -70,18 +77,23 @@ void tell(const Zone& zone, double seconds, Session& session) {
 void add_shape_options(CLI::App& verb, ShapeArguments& shape) {
   verb.add_option("--cap", shape.cap, "Ends of lines: round, flat, square")->type_name("NAME");
   verb.add_option("--join", shape.join, "Outer sides of bends: round, mitre, bevel")->type_name("NAME");
-  verb.add_option("--mitre-limit", shape.mitre_limit, "Longest mitre, in radii from its corner (default: 5)")->type_name("RATIO");
+  verb.add_option("--mitre-limit", shape.mitre_limit, "Longest mitre, in radii from its corner (default: 5)")
+      ->type_name("RATIO");
   verb.add_option("--side", shape.side, "Zone on one side of lines only: both, left, right")->type_name("NAME");
-  verb.add_flag("--ring", shape.ring, "Zone without the polygons of the input; negative radius: what shrinking takes off");
+  verb.add_flag("--ring", shape.ring,
+                "Zone without the polygons of the input; negative radius: what shrinking takes off");
 }
 
 Result<ShapeOptions> parse_shape(const ShapeArguments& shape) {
   ShapeOptions options;
-  const auto cap = choose<Cap>("--cap", shape.cap, {{"round", Cap::round}, {"flat", Cap::flat}, {"square", Cap::square}});
+  const auto cap =
+      choose<Cap>("--cap", shape.cap, {{"round", Cap::round}, {"flat", Cap::flat}, {"square", Cap::square}});
   if (!cap) return cap.error();
-  const auto join = choose<Join>("--join", shape.join, {{"round", Join::round}, {"mitre", Join::mitre}, {"bevel", Join::bevel}});
+  const auto join =
+      choose<Join>("--join", shape.join, {{"round", Join::round}, {"mitre", Join::mitre}, {"bevel", Join::bevel}});
   if (!join) return join.error();
-  const auto side = choose<Side>("--side", shape.side, {{"both", Side::both}, {"left", Side::left}, {"right", Side::right}});
+  const auto side =
+      choose<Side>("--side", shape.side, {{"both", Side::both}, {"left", Side::left}, {"right", Side::right}});
   if (!side) return side.error();
   if (*side != Side::both && shape.cap == "round")
     return Error{ErrorCode::usage, "a one-sided zone ends straight across", "", "leave --cap out"};
@@ -110,7 +122,7 @@ Result<std::vector<double>> parse_signed_radii(std::string_view text) {
     begin = end + 1;
     const bool negative = word.size() > 1 && word[0] == '-' && word.find(':') == word.npos;
     const auto parsed = parse_radii(negative ? word.substr(1) : word);
-    if (!parsed) return parsed.error();
+    if (!parsed) return parse_radii(word).error();  // names what was typed
     for (const double r : *parsed) radii.push_back(negative ? -r : r);
   }
   return radii;

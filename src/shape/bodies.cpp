@@ -9,8 +9,8 @@ namespace {
 using Q = Vector<quad>;
 using kernel::square_root;
 
-// Where a line turns by less, in radians, bevel, arc and mitre differ by less than 2^-43 R: the arc serves for all. Where it
-// turns back by all but this, it ends.
+// Where a line turns by less, in radians, bevel, arc and mitre differ by less than 2^-43 R: the arc serves for all.
+// Where it turns back by all but this, it ends.
 constexpr double straight = 0x1p-20;
 
 Q operator+(Q a, Q b) { return {a.x + b.x, a.y + b.y}; }
@@ -58,7 +58,8 @@ Bodies::Bodies(const Network& network, const zone::Instance& instance, const Sha
   std::vector<Arm> arms;
   for (Index v = 0; v < network.vertices().size(); ++v) {
     arms.clear();
-    for (Index i = begin[v]; i < begin[v + 1]; ++i) arms.push_back({leaving[i], direction(leaving[i]), length(leaving[i])});
+    for (Index i = begin[v]; i < begin[v + 1]; ++i)
+      arms.push_back({leaving[i], direction(leaving[i]), length(leaving[i])});
     add_joins(v, arms);
     if (arms.size() > 1) add_seams(arms);
   }
@@ -75,7 +76,8 @@ Q Bodies::direction(Index side) const {
 
 double Bodies::length(Index side) const {
   const auto e = in_.ends(side);
-  return std::hypot(in_.vertices()[e.to].x - in_.vertices()[e.from].x, in_.vertices()[e.to].y - in_.vertices()[e.from].y);
+  return std::hypot(in_.vertices()[e.to].x - in_.vertices()[e.from].x,
+                    in_.vertices()[e.to].y - in_.vertices()[e.from].y);
 }
 
 /// The body in the one gap above 180 degrees.
@@ -106,7 +108,8 @@ void Bodies::add_joins(Index v, const std::vector<Arm>& arms) {
   // Moves must not turn a border by what comes near the angle to its neighbour.
   const double sharpest = std::min(std::max(angle, straight), M_PI - angle) / 2;
   const double shortest = kind == Kind::join ? overlap : std::min(overlap, radius_ * std::sin(angle / 2));
-  specs_.push_back({kind, false, sector.before, sector.after, overlap, std::min(most, 0x1p-10 * sharpest * sharpest * shortest)});
+  specs_.push_back(
+      {kind, false, sector.before, sector.after, overlap, std::min(most, 0x1p-10 * sharpest * sharpest * shortest)});
 }
 
 /// Where two segments go straight on, the rectangles' ends overlap by next to nothing on the side where they do.
@@ -182,8 +185,8 @@ void Bodies::build_point(const Spec& spec, quad r, Body<quad>& out) const {
   for (std::uint8_t k = 0; k < 4; ++k) out.add(line(corner[k], corner[(k + 1) % 4], wall(spec.a, k)));
 }
 
-/// Across the common end of two segments: from below to their left side (the left of `a`, which leaves the vertex), as far
-/// as it is certainly inside of both rectangles.
+/// Across the common end of two segments: from below to their left side (the left of `a`, which leaves the vertex), as
+/// far as it is certainly inside of both rectangles.
 void Bodies::build_seam(const Spec& spec, quad r, Body<quad>& out) const {
   const Index vertex = in_.ends(spec.a).from;
   const Q v = at(vertex), d = direction(spec.a), up = quad(-1) * right_of(d);
@@ -193,18 +196,26 @@ void Bodies::build_seam(const Spec& spec, quad r, Body<quad>& out) const {
   const Q low = v - (r / 2) * up;
   const Q corner[] = {low - m * d, low + m * d, v + m * d + top * up, v - m * d + top * up};
   for (std::uint8_t k = 0; k < 4; ++k)
-    out.add(line(corner[k], corner[(k + 1) % 4], k == 2 && top == r ? Key{Key::Kind::side, spec.a ^ 1u} : wall(vertex, std::uint8_t(4 + k))));
+    out.add(line(corner[k], corner[(k + 1) % 4],
+                 k == 2 && top == r ? Key{Key::Kind::side, spec.a ^ 1u} : wall(vertex, std::uint8_t(4 + k))));
 }
 
 Body<quad> Bodies::build(Index body, quad radius, bool move) const {
   const Spec& spec = specs_[body];
   Body<quad> out;
   switch (spec.kind) {
-    case Kind::rectangle: build_rectangle(spec, radius, out); break;
+    case Kind::rectangle:
+      build_rectangle(spec, radius, out);
+      break;
     case Kind::disc:
-    case Kind::square: build_point(spec, radius, out); break;
-    case Kind::seam: build_seam(spec, radius, out); break;
-    default: build_join(spec, radius, out);
+    case Kind::square:
+      build_point(spec, radius, out);
+      break;
+    case Kind::seam:
+      build_seam(spec, radius, out);
+      break;
+    default:
+      build_join(spec, radius, out);
   }
   if (!move) return out;
   // Corners move with both their borders; the ends of an arc are found again where its neighbours cut its circle.

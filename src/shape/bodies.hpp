@@ -45,8 +45,8 @@ struct Body {
 /// each segment, and at vertices joins, caps and, where lines go straight on, a body that covers the seam.
 ///
 /// Bodies overlap by more than the perturbation wherever the union is not to show a border. Each corner of each body is
-/// moved by a fixed random vector of up to 2^-62 of the scale, so that no two borders coincide, touch or meet in a corner:
-/// all decisions are about this instance.
+/// moved by a fixed random vector of up to 2^-62 of the scale, so that no two borders coincide, touch or meet in a
+/// corner: all decisions are about this instance.
 class Bodies {
  public:
   Bodies(const Network& network, const zone::Instance& instance, const ShapeOptions& options);

@@ -68,8 +68,8 @@ class Corners {
     return std::abs(double((d.x * v.y - d.y * v.x) / kernel::square_root(d.x * d.x + d.y * d.y)));
   }
 
-  /// Only borders about a common vertex may touch: all others are looked at by the enlarged radius where they nearly do,
-  /// as its topology tells where they cross.
+  /// Only borders about a common vertex may touch: all others are looked at by the enlarged radius where they nearly
+  /// do, as its topology tells where they cross.
   Point meet(BorderId from, BorderId to, Point seen) const {
     const Border<quad> a = nominal(from), b = nominal(to);
     Vector<quad> found[2] = {};
@@ -122,7 +122,8 @@ class Corners {
     if (turn == 0) return -1;
     const quad t = ((b.p.x - a.p.x) * e.y - (b.p.y - a.p.y) * e.x) / turn;
     out[0] = out[1] = {a.p.x + t * d.x, a.p.y + t * d.y};
-    return std::abs(double(turn / (kernel::square_root(d.x * d.x + d.y * d.y) * kernel::square_root(e.x * e.x + e.y * e.y))));
+    return std::abs(
+        double(turn / (kernel::square_root(d.x * d.x + d.y * d.y) * kernel::square_root(e.x * e.x + e.y * e.y))));
   }
   double line_circle(const Border<quad>& line, const Border<quad>& circle, Vector<quad> (&out)[2]) const {
     const quad r = bodies_.nominal_radius();
@@ -180,12 +181,8 @@ class Contraction {
   }
 
  private:
-  static Chain::iterator following(Chain& chain, Chain::iterator i) {
-    return ++i == chain.end() ? chain.begin() : i;
-  }
-  static Chain::iterator previous(Chain& chain, Chain::iterator i) {
-    return --(i == chain.begin() ? chain.end() : i);
-  }
+  static Chain::iterator following(Chain& chain, Chain::iterator i) { return ++i == chain.end() ? chain.begin() : i; }
+  static Chain::iterator previous(Chain& chain, Chain::iterator i) { return --(i == chain.begin() ? chain.end() : i); }
   /// Shorter than the resolution, or straying by less from what is on both its sides.
   bool is_negligible(const Item& before, const Item& i, const Item& after, std::size_t count) const {
     if (distance(i.start, after.start) <= resolution_) return true;
@@ -219,8 +216,12 @@ Zone::Piece as_piece(const Network& network, const Item& item, Point start, Poin
       p.kind = Zone::Kind::arc;
       p.center = network.vertices()[item.key.index];
       break;
-    case Key::Kind::end: p.role = Zone::Role::end; break;
-    case Key::Kind::bevel: p.role = Zone::Role::bevel; break;
+    case Key::Kind::end:
+      p.role = Zone::Role::end;
+      break;
+    case Key::Kind::bevel:
+      p.role = Zone::Role::bevel;
+      break;
   }
   p.from_vertex = true;
   return p;
@@ -252,9 +253,9 @@ bool is_thin(const std::vector<Zone::Piece>& ring, double radius, double resolut
   return across <= 8 * resolution || std::abs(twice_area(ring, radius)) <= resolution * perimeter;
 }
 
-/// Moves the starts of all items to where their borders meet. Near a vertex where a line goes straight on, or an arc begins,
-/// that may be far along the boundary from where the moved bodies change over; what has no length left then is dropped, as
-/// an arc without would pass for a full circle. True if something was.
+/// Moves the starts of all items to where their borders meet. Near a vertex where a line goes straight on, or an arc
+/// begins, that may be far along the boundary from where the moved bodies change over; what has no length left then is
+/// dropped, as an arc without would pass for a full circle. True if something was.
 bool settle(const Corners& corners, Chain& chain, double resolution) {
   if (chain.size() < 2) return false;
   BorderId before = chain.back().border;
@@ -284,7 +285,8 @@ std::vector<Zone::Piece> pieces_of(const Network& network, double radius, const 
     return {as_piece(network, only, start, start)};
   }
   for (auto i = chain.begin(); i != chain.end(); ++i)
-    pieces.push_back(as_piece(network, *i, i->start, (std::next(i) == chain.end() ? chain.begin() : std::next(i))->start));
+    pieces.push_back(
+        as_piece(network, *i, i->start, (std::next(i) == chain.end() ? chain.begin() : std::next(i))->start));
   return pieces;
 }
 

@@ -85,7 +85,8 @@ class Course {
       if (out[i].low < out[i].high) out[to++] = out[i];
     out.resize(to);
   }
-  void cut_by_line(const Border<Real>& line, Real grown, int k, std::size_t first, std::vector<Stretch<Real>>& out) const {
+  void cut_by_line(const Border<Real>& line, Real grown, int k, std::size_t first,
+                   std::vector<Stretch<Real>>& out) const {
     const Vector<Real> e{line.q.x - line.p.x, line.q.y - line.p.y};
     const Real l = kernel::square_root(e.x * e.x + e.y * e.y);
     const auto depth = [&](Vector<Real> p) { return (e.x * (p.y - line.p.y) - e.y * (p.x - line.p.x)) / l + grown; };
@@ -104,7 +105,8 @@ class Course {
     if (c <= -1) return;
     if (c >= 1) return out.resize(first);
     const Real s = kernel::square_root((1 - c) * (1 + c));
-    keep_angles(angle({c * m.x + s * m.y, c * m.y - s * m.x}), angle({c * m.x - s * m.y, c * m.y + s * m.x}), k, first, out);
+    keep_angles(angle({c * m.x + s * m.y, c * m.y - s * m.x}), angle({c * m.x - s * m.y, c * m.y + s * m.x}), k, first,
+                out);
   }
   void cut_by_circle(Vector<Real> c, Real r, int k, std::size_t first, std::vector<Stretch<Real>>& out) const {
     if (!b_.arc) {

@@ -43,8 +43,8 @@ std::vector<bool> wanted_elements(const Network& network, const zone::Instance& 
   return wanted;
 }
 
-/// The part of a wanted face within the radius: the site itself, links as far as they are near enough, and the site's own
-/// offset between them, counter-clockwise.
+/// The part of a wanted face within the radius: the site itself, links as far as they are near enough, and the site's
+/// own offset between them, counter-clockwise.
 struct Item {
   enum class Kind : std::uint8_t { base, link, level };
   Kind kind;
@@ -113,8 +113,8 @@ class Outline {
       if (d_.clearance[d_.vertex[i]] != 0) continue;
       const bool last = i + 1 == d_.begin[f + 1];
       // The ends of the site are its vertices as they were given.
-      const Point end = !last ? d_.place[d_.vertex[i]]
-                              : in_.vertices()[in_.is_side(f) ? in_.ends(f).to : in_.vertex_of(f)];
+      const Point end =
+          !last ? d_.place[d_.vertex[i]] : in_.vertices()[in_.is_side(f) ? in_.ends(f).to : in_.vertex_of(f)];
       add_part(f, first, i + 1, start, end);
       first = i + 1;
       start = end;

@@ -79,7 +79,8 @@ class RingCheck {
     for (const auto& fragment : a.fragments) {
       const Index v = fragment.to;
       if (seen[v] || a.original[v] == f_.sides[fragment.side].to) continue;
-      if (a.original[v] != none && network_.vertices()[a.original[v]] == network_.vertices()[f_.sides[fragment.side].to])
+      if (a.original[v] != none &&
+          network_.vertices()[a.original[v]] == network_.vertices()[f_.sides[fragment.side].to])
         continue;
       seen[v] = true;
       note(a.original[v] == none ? RingFault::Kind::crossing : RingFault::Kind::touching, a.place[v]);
@@ -291,7 +292,8 @@ Result<zone::ShapedRings> union_border(const Network& network, const Network& ta
       const Index source = segment_at({p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2});
       const auto s = target.segments()[source];
       const Point a = target.vertices()[s.a], b = target.vertices()[s.b];
-      Zone::Piece piece{Zone::Kind::segment, p, q, {}, source, (q.x - p.x) * (b.x - a.x) + (q.y - p.y) * (b.y - a.y) < 0};
+      Zone::Piece piece{
+          Zone::Kind::segment, p, q, {}, source, (q.x - p.x) * (b.x - a.x) + (q.y - p.y) * (b.y - a.y) < 0};
       piece.role = Zone::Role::input;
       rings.piece.push_back(piece);
     }

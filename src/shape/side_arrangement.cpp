@@ -58,9 +58,8 @@ std::optional<SideArrangement> arrange(const Network& network, std::span<const R
   std::vector<Vertex> vertices;
   for (const RingSide& s : sides)
     for (const Index v : {s.from, s.to}) vertices.push_back({grid.at(network.vertices()[v]), v});
-  std::sort(vertices.begin(), vertices.end(), [](const Vertex& p, const Vertex& q) {
-    return p.at != q.at ? p.at < q.at : p.vertex < q.vertex;
-  });
+  std::sort(vertices.begin(), vertices.end(),
+            [](const Vertex& p, const Vertex& q) { return p.at != q.at ? p.at < q.at : p.vertex < q.vertex; });
   SideArrangement result;
   std::vector<GridPoint> points;
   for (const Vertex& v : vertices) {
@@ -116,14 +115,16 @@ std::vector<std::int64_t> RayToTheLeft::holding(Index fragment) const {
   const Point p = a.snapped[own.first], q = a.snapped[own.second];
   const Point middle{p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2};
   std::vector<std::int64_t> hits;
-  tree_.visit_left_of(middle, [] { return -std::numeric_limits<double>::infinity(); }, [&](std::size_t i) {
-    const auto& f = a.fragments[i];
-    if (std::minmax(f.from, f.to) == own) return;
-    const bool up = a.snapped[f.from].y < a.snapped[f.to].y;
-    const Point low = a.snapped[up ? f.from : f.to], high = a.snapped[up ? f.to : f.from];
-    if (!(low.y <= middle.y && middle.y < high.y)) return;
-    if (kernel::orientation(low, high, middle) < 0) hits.push_back(sides_[f.side].feature);
-  });
+  tree_.visit_left_of(
+      middle, [] { return -std::numeric_limits<double>::infinity(); },
+      [&](std::size_t i) {
+        const auto& f = a.fragments[i];
+        if (std::minmax(f.from, f.to) == own) return;
+        const bool up = a.snapped[f.from].y < a.snapped[f.to].y;
+        const Point low = a.snapped[up ? f.from : f.to], high = a.snapped[up ? f.to : f.from];
+        if (!(low.y <= middle.y && middle.y < high.y)) return;
+        if (kernel::orientation(low, high, middle) < 0) hits.push_back(sides_[f.side].feature);
+      });
   std::sort(hits.begin(), hits.end());
   std::vector<std::int64_t> odd;
   for (std::size_t i = 0, j = 0; i < hits.size(); i = j) {

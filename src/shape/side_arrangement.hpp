@@ -49,8 +49,8 @@ Coinciding group_coinciding(const SideArrangement& arrangement);
 class RayToTheLeft {
  public:
   RayToTheLeft(const SideArrangement& arrangement, std::span<const RingSide> sides);
-  /// The features that hold, by the even-odd rule, what is just left of the middle of the fragment (just above it if it is
-  /// horizontal); sorted.
+  /// The features that hold, by the even-odd rule, what is just left of the middle of the fragment (just above it if it
+  /// is horizontal); sorted.
   std::vector<std::int64_t> holding(Index fragment) const;
 
  private:

@@ -82,8 +82,8 @@ class Worker {
     for (const Index other : recent_)
       if (other != none && other != body && subtract(course, other)) return true;
     for (int look = 0; look < 6; ++look) {  // what covers the middle of the largest stretch left
-      const auto widest = std::max_element(open_.begin(), open_.end(),
-                                           [](const Open& a, const Open& b) { return a.high - a.low < b.high - b.low; });
+      const auto widest = std::max_element(
+          open_.begin(), open_.end(), [](const Open& a, const Open& b) { return a.high - a.low < b.high - b.low; });
       const auto p = course.at((widest->low + widest->high) / 2);
       const Open before = *widest;
       bool progress = false, all = false;
@@ -91,9 +91,8 @@ class Worker {
         if (all || progress || other == body) return;
         ++counters.candidates;
         all = subtract(course, Index(other));
-        progress = all || std::none_of(open_.begin(), open_.end(), [&](const Open& o) {
-          return o.low == before.low && o.high == before.high;
-        });
+        progress = all || std::none_of(open_.begin(), open_.end(),
+                                       [&](const Open& o) { return o.low == before.low && o.high == before.high; });
         if (progress) remember(Index(other));
       });
       if (all) return true;

@@ -32,7 +32,8 @@ std::vector<ShapeOracle::Corner> ShapeOracle::corners_of(const std::vector<Input
     }
   };
   const auto key = [&](const InputPart& part, Point a, Point b) {
-    return std::pair{part.feature, std::pair{std::min(coordinates(a), coordinates(b)), std::max(coordinates(a), coordinates(b))}};
+    return std::pair{part.feature,
+                     std::pair{std::min(coordinates(a), coordinates(b)), std::max(coordinates(a), coordinates(b))}};
   };
   if (border_only) for_each_side([&](const InputPart& part, Point a, Point b) { ++count[key(part, a, b)]; });
   std::map<Coordinates, std::map<Coordinates, std::pair<bool, bool>>> arms;  // with senses: out, in
@@ -89,7 +90,8 @@ ShapeOracle::ShapeOracle(const std::vector<InputPart>& parts, const Obstacle& ob
     : obstacle_(obstacle),
       question_(question),
       radius_(std::abs(Real(question.distance))),
-      reach_(radius_ * (question.join == ShapeQuestion::Join::mitre ? std::max(Real(question.mitre_limit), 1.5L) : 1.5L)),
+      reach_(radius_ *
+             (question.join == ShapeQuestion::Join::mitre ? std::max(Real(question.mitre_limit), 1.5L) : 1.5L)),
       corners_(corners_of(parts, question.distance < 0)),
       sides_(sides_of(corners_.items())) {}
 
@@ -114,8 +116,7 @@ void ShapeOracle::in_corner(const Corner& c, Vec p, std::vector<Depth>& out) con
   const Vec v = p - c.at;
   if (c.arms.empty()) {
     if (question_.cap == Cap::round) out.push_back({radius_ - length(v), HUGE_VALL});
-    if (question_.cap == Cap::square)
-      out.push_back({radius_ - std::max(std::abs(v.x), std::abs(v.y)), HUGE_VALL});
+    if (question_.cap == Cap::square) out.push_back({radius_ - std::max(std::abs(v.x), std::abs(v.y)), HUGE_VALL});
     return;
   }
   if (c.end) {

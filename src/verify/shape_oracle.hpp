@@ -21,8 +21,8 @@ struct ShapeQuestion {
   bool ring = false;
 };
 
-/// Tells by brute force, from the definition alone, whether a place belongs to a zone of some shape: by rectangles beside
-/// segments, joins and caps one by one, or by the nearest segments and the side they are seen from.
+/// Tells by brute force, from the definition alone, whether a place belongs to a zone of some shape: by rectangles
+/// beside segments, joins and caps one by one, or by the nearest segments and the side they are seen from.
 class ShapeOracle {
  public:
   enum class Answer { inside, outside, unclear };
@@ -37,10 +37,10 @@ class ShapeOracle {
  private:
   struct Corner {
     Vec at;
-    std::vector<Vec> arms;           // neighbours, in counter-clockwise order around the corner
-    std::vector<bool> out, in;       // per arm: some line runs along it away from the corner, towards it
-    std::vector<Real> gap;           // per arm: counter-clockwise angle to the next one
-    bool end = false;                // all arms leave in one direction
+    std::vector<Vec> arms;      // neighbours, in counter-clockwise order around the corner
+    std::vector<bool> out, in;  // per arm: some line runs along it away from the corner, towards it
+    std::vector<Real> gap;      // per arm: counter-clockwise angle to the next one
+    bool end = false;           // all arms leave in one direction
     Box box() const {
       Box b;
       b.add(at);
@@ -50,8 +50,8 @@ class ShapeOracle {
   };
   struct Side {
     Vec a, b;
-    bool end_a, end_b;        // a line ends there
-    bool forward, backward;   // lines run from a to b, from b to a
+    bool end_a, end_b;       // a line ends there
+    bool forward, backward;  // lines run from a to b, from b to a
     Box box() const {
       Box r;
       r.add(a), r.add(b);

@@ -12,8 +12,8 @@ namespace {
 
 using Answer = ShapeOracle::Answer;
 
-/// A bound of how far p is from a place where inside and outside meet, within a factor of 2 where it is far. Cusps may be
-/// much narrower than the tolerance, so the places looked at come closer and closer.
+/// A bound of how far p is from a place where inside and outside meet, within a factor of 2 where it is far. Cusps may
+/// be much narrower than the tolerance, so the places looked at come closer and closer.
 Real distance_of_border(const ShapeOracle& oracle, Vec p, Real tolerance, Real most) {
   for (Real r = tolerance; r > 1e-7L * tolerance; r /= 4)
     if (oracle.around(p, r) == Answer::unclear) return tolerance / 2;

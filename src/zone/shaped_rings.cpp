@@ -12,8 +12,8 @@ ShapedRings shaped(const Instance& in, const Rings& rings) {
   for (Index r = 0; r < rings.ring_count(); ++r) {
     for (Index e = rings.begin[r]; e < rings.begin[r + 1]; ++e) {
       const Index element = rings.element[e];
-      Zone::Piece p{Zone::Kind::segment, rings.vertex[e], rings.vertex[rings.next(r, e)], {}, element >> 1,
-                    (element & 1u) != 0};
+      Zone::Piece p{Zone::Kind::segment, rings.vertex[e],    rings.vertex[rings.next(r, e)], {},
+                    element >> 1,        (element & 1u) != 0};
       if (!in.is_side(element)) {
         p.kind = Zone::Kind::arc;
         p.source = in.vertex_of(element);
