@@ -139,7 +139,7 @@ TEST(ShapeZones, WrongShapesAreFound) {
     if (k == 1) other.join = Join::mitre;
     if (k == 2) other.join = Join::bevel;
     if (k == 3) other.distance = 1.001;
-    EXPECT_TRUE(fault_in(*zone, corner, other, 1).has_value()) << k;
+    EXPECT_TRUE(fault_in(*zone, corner, other, 0.1).has_value()) << k;
   }
 }
 
