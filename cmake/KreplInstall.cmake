@@ -8,7 +8,7 @@ set_target_properties(krepl PROPERTIES
 install(TARGETS krepl EXPORT kreplTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY include/krepl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY include/krepl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 
 # A static library hands its own needs on to those who link it.
 set(krepl_dependencies "find_dependency(TBB)")

@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
 #include "input/network_reader.hpp"
+#include "krepl/sweep.hpp"
 #include "krepl/voronoi.hpp"
 #include "krepl/zone.hpp"
 #include "output/zone_file.hpp"
+#include "feature_buffer.hpp"
 #include "network_options.hpp"
 #include "output_target.hpp"
 #include "shape_options.hpp"
@@ -22,6 +23,7 @@ struct BufferOptions {
   std::string output, radius, max_error, format, engine = "auto";
   bool no_pieces = false, separate = false;
   ShapeArguments shape;
+  FeatureOptions features;
 };
 
 /// What the options mean once they are checked; made before anything is read.
@@ -34,30 +36,33 @@ struct BufferPlan {
 };
 
 Status check_engine(const std::string& engine) {
-  if (engine == "auto" || engine == "intervals" || engine == "voronoi") return std::monostate{};
-  bool planned = engine == "sweep";
-  return Error{ErrorCode::usage, "engine '" + engine + (planned ? "' is not in this version" : "' is unknown"), "",
-               "give --engine auto, intervals or voronoi"};
+  if (engine == "auto" || engine == "intervals" || engine == "voronoi" || engine == "sweep") return std::monostate{};
+  return Error{ErrorCode::usage, "engine '" + engine + "' is unknown", "",
+               "give --engine auto, intervals, voronoi or sweep"};
 }
 
-/// A diagram costs about as much as a dozen zones without one (docs/voronoi.md, "Cost"); it ends at its horizon.
 bool wants_diagram(const std::string& engine, const std::vector<double>& radii, const Network& network) {
-  constexpr std::size_t many = 16;
-  if (engine != "auto") return engine == "voronoi";
-  return radii.size() >= many && *std::max_element(radii.begin(), radii.end()) < network.extent();
+  return engine == "auto" ? diagram_pays(network, radii) : engine == "voronoi";
 }
 
 Result<BufferPlan> make_plan(const BufferOptions& options) {
   BufferPlan plan;
   if (Status engine = check_engine(options.engine); !engine) return engine.error();
-  Result<std::vector<double>> radii = parse_signed_radii(options.radius);
-  if (!radii) return radii.error();
-  plan.radii = *radii;
+  if (!needs_features(options.features, options.radius)) {
+    Result<std::vector<double>> radii = parse_signed_radii(options.radius);
+    if (!radii) return radii.error();
+    plan.radii = *radii;
+  }
   Result<ShapeOptions> shape = parse_shape(options.shape);
   if (!shape) return shape.error();
   plan.shape = *shape;
-  if (options.engine == "voronoi" && !is_plain(plan.shape, plan.radii))
-    return Error{ErrorCode::usage, "--engine voronoi makes whole round zones only", "", "leave --engine out"};
+  if (!is_plain(plan.shape, plan.radii)) {
+    if (needs_features(options.features, options.radius))
+      return Error{ErrorCode::usage, "caps, joins, sides and rings do not go with radii or zones of single features", "",
+                   "leave one of them out"};
+    if (options.engine == "voronoi" || options.engine == "sweep")
+      return Error{ErrorCode::usage, "--engine " + options.engine + " makes whole round zones only", "", "leave --engine out"};
+  }
   plan.engine = options.engine;
   if (!options.max_error.empty()) {
     Result<double> max_error = parse_positive("--max-error", options.max_error);
@@ -101,6 +106,20 @@ void tell_diagram(const VoronoiDiagram& diagram, double seconds, Session& sessio
   session.detail(fmt::format("faces      {} candidates; {} faces and {} vertices in quadruple precision, {} in 320 bits, {} links reconciled", c.candidates, c.faces_in_quadruple, c.vertices_in_quadruple, c.faces_in_320_bits, c.links_reconciled));
 }
 
+void tell_sweep(const SweepCounters& c, Session& session) {
+  session.detail(fmt::format("sweep      {} paths, {} rounds, {} curves, {} crossings", c.paths, c.rounds, c.curves, c.crossings));
+  session.detail(fmt::format("predicates {} decided in double precision, {} in quadruple, {} in 320 bits, {} ties by name",
+                             c.decisions - c.decided_in_quadruple - c.decided_in_320_bits, c.decided_in_quadruple, c.decided_in_320_bits, c.ties));
+}
+
+Result<Zone> zone_without_diagram(const input::NetworkData& data, const BufferPlan& plan, double radius, Session& session) {
+  if (plan.engine != "sweep") return compute_zone(data.network, {radius}, session.context("computing"));
+  SweepCounters counters;
+  Result<Zone> zone = compute_zone_by_sweep(data.network, {radius}, session.context("computing"), &counters);
+  tell_sweep(counters, session);
+  return zone;
+}
+
 std::string summary_line(const Network& network, const std::vector<Zone>& zones, double seconds) {
   std::string text = fmt::format("{} segments", network.segments().size());
   for (const Zone& zone : zones) {
@@ -134,7 +153,7 @@ Result<std::vector<Zone>> compute_zones(const input::NetworkData& data, const Bu
   std::vector<Zone> zones;
   for (double radius : plan.radii) {
     Stopwatch watch;
-    Result<Zone> zone = compute_zone(data.network, {radius}, session.context("computing"));
+    Result<Zone> zone = zone_without_diagram(data, plan, radius, session);
     if (!zone) return zone.error();
     tell_counters(*zone, watch.seconds(), session);
     zones.push_back(std::move(*zone));
@@ -148,6 +167,11 @@ int run_buffer(const BufferOptions& options, Session& session) {
   if (!plan) return session.fail("", plan.error());
   if (Status target = check_target(options.output, {options.input.path}); !target)
     return session.fail(options.output, target.error());
+  if (needs_features(options.features, options.radius)) {
+    return run_feature_buffer({options.features, options.input, options.output, options.radius, options.engine, plan->format,
+                               plan->file},
+                              session);
+  }
 
   Stopwatch reading;
   const std::string in_name = input_name(options.input.path);
@@ -189,16 +213,16 @@ void add_buffer_verb(CLI::App& program, Session& session) {
       ->required();
   verb->add_option("--radius", options->radius,
                    "Radius of the disk, in the unit of the coordinates; several, or FIRST:LAST:STEP, give nested zones; "
-                   "negative: polygons are shrunk")
-      ->required()
+                   "negative: polygons are shrunk; or an expression of fields, a radius for each feature: \"width / 2 + 5\"")
       ->type_name("R[,R2,...]");
+  add_feature_options(*verb, options->features);
   add_network_options(*verb, options->input, options->format);
   add_shape_options(*verb, options->shape);
   verb->add_option("--max-error", options->max_error, "Formats without arcs: largest deviation (default: radius / 1000)")
       ->type_name("LENGTH");
   verb->add_flag("--separate", options->separate, "A feature for each polygon, not for each radius");
   verb->add_flag("--no-pieces", options->no_pieces, "GeoPackage: no layer of boundary pieces with their origin");
-  verb->add_option("--engine", options->engine, "Algorithm: auto, intervals, voronoi")->type_name("NAME");
+  verb->add_option("--engine", options->engine, "Algorithm: auto, intervals, voronoi, sweep")->type_name("NAME");
   session.add_common_options(*verb);
   session.on_run(*verb, [options, &session] { return run_buffer(*options, session); });
 }

@@ -1,4 +1,4 @@
-// krepl height: how high a ball comes to rest at given places.
+// krepl height: how high a ball or another cutter comes to rest at given places.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -25,14 +25,36 @@ constexpr std::size_t places_at_a_time = std::size_t{1} << 17;
 
 struct HeightOptions {
   TerrainOptions terrain;
-  std::string radius, places, output;
+  std::string radius, tool, places, output;
 };
 
 /// How many places touch a vertex, an edge, a face, or nothing.
 using Counts = std::array<std::size_t, 4>;
 
+/// What --radius or --tool asks for; `lift` is what the height of a row is above that of the contact: with --tool rows have
+/// the tip's.
+struct Asked {
+  Cutter cutter;
+  double lift = 0;
+};
+Result<Asked> asked_cutter(const HeightOptions& options) {
+  if (options.radius.empty() == options.tool.empty())
+    return Error{ErrorCode::usage, "give either --radius or --tool", "", "--radius R is the ball --tool ball:2R"};
+  if (!options.tool.empty()) {
+    const Result<Cutter> cutter = Cutter::parse(options.tool);
+    if (!cutter) return cutter.error();
+    return Asked{*cutter, -cutter->control_height()};
+  }
+  const Result<double> radius = parse_radius(options.radius);
+  if (!radius) return radius.error();
+  const Result<Cutter> ball = Cutter::ball(2 * *radius);
+  if (!ball) return ball.error();
+  return Asked{*ball};
+}
+
 /// One row: x,y,h,kind,px,py,pz.
-void append_row(std::string& text, Point place, const Contact& contact, const Terrain& terrain, Counts& counts) {
+void append_row(std::string& text, Point place, const Contact& contact, const Terrain& terrain, double lift,
+                Counts& counts) {
   append_number(text, place.x);
   text += ',';
   append_number(text, place.y);
@@ -45,7 +67,7 @@ void append_row(std::string& text, Point place, const Contact& contact, const Te
   const Terrain::FeatureKind kind = terrain.feature_kind(contact.feature);
   ++counts[std::size_t(kind)];
   text += ',';
-  append_number(text, contact.height + origin.z);
+  append_number(text, contact.height + (origin.z + lift));
   text += ',';
   text += output::name_of(kind);
   for (const double x : {contact.point.x + origin.x, contact.point.y + origin.y, contact.point.z + origin.z}) {
@@ -55,9 +77,9 @@ void append_row(std::string& text, Point place, const Contact& contact, const Te
   text += '\n';
 }
 
-/// Lowers the ball at all places and writes a row for each, portion by portion.
+/// Lowers the tool at all places and writes a row for each, portion by portion.
 Result<Counts> write_heights(const std::string& path, const DropCutter& cutter, const std::vector<Point>& places,
-                             const Context& context) {
+                             double lift, const Context& context) {
   Result<output::OutputStream> stream = output::OutputStream::open(path);
   if (!stream) return stream.error();
   Context quiet;
@@ -73,7 +95,8 @@ Result<Counts> write_heights(const std::string& path, const DropCutter& cutter, 
     for (std::size_t i = first; i < last; ++i) local.push_back({places[i].x - origin.x, places[i].y - origin.y});
     contacts.resize(local.size());
     if (Status done = cutter.at(local, contacts, quiet); !done) return done.error();
-    for (std::size_t i = first; i < last; ++i) append_row(text, places[i], contacts[i - first], cutter.terrain(), counts);
+    for (std::size_t i = first; i < last; ++i)
+      append_row(text, places[i], contacts[i - first], cutter.terrain(), lift, counts);
     stream->write(text);
     text.clear();
     if (context.progress) context.progress(double(last) / double(places.size()));
@@ -85,8 +108,8 @@ Result<Counts> write_heights(const std::string& path, const DropCutter& cutter, 
 
 int run_height(const HeightOptions& options, Session& session) {
   const Stopwatch total;
-  const Result<double> radius = parse_radius(options.radius);
-  if (!radius) return session.fail("", radius.error());
+  const Result<Asked> asked = asked_cutter(options);
+  if (!asked) return session.fail("", asked.error());
   const Result<input::TerrainRequest> request = terrain_request(options.terrain);
   if (!request) return session.fail("", request.error());
   if (options.places == "-" && request->path == "-")
@@ -101,11 +124,12 @@ int run_height(const HeightOptions& options, Session& session) {
   tell_terrain(*file, options.terrain.name(), total.seconds(), session);
 
   const Stopwatch building;
-  const Result<DropCutter> cutter = DropCutter::build(file->terrain, *radius, session.context("indexing"));
+  const Result<DropCutter> cutter = DropCutter::build(file->terrain, asked->cutter, session.context("indexing"));
   if (!cutter) return session.fail(options.terrain.name(), cutter.error());
   session.detail(fmt::format("index      {:.3f} s", building.seconds()));
   const Stopwatch dropping;
-  const Result<Counts> counts = write_heights(options.output, *cutter, *places, session.context("dropping"));
+  const Result<Counts> counts =
+      write_heights(options.output, *cutter, *places, asked->lift, session.context("dropping"));
   if (!counts) return session.fail(output_name(options.output), counts.error());
   session.detail(fmt::format("drop       {:.3f} s, with writing", dropping.seconds()));
   session.summary(fmt::format("{} places: {} on a face, {} on an edge, {} on a vertex, {} touch nothing; {:.3f} s",
@@ -118,10 +142,16 @@ int run_height(const HeightOptions& options, Session& session) {
 
 void add_height_verb(CLI::App& program, Session& session) {
   auto options = std::make_shared<HeightOptions>();
-  CLI::App* verb = program.add_subcommand("height", "How high a ball comes to rest at given places, and what it touches");
+  CLI::App* verb = program.add_subcommand(
+      "height", "How high a ball or another cutter comes to rest at given places, and what it touches");
   add_terrain_options(*verb, options->terrain);
-  verb->add_option("--radius", options->radius, "Radius of the ball, in the unit of the coordinates")
-      ->required()->type_name("R");
+  verb->add_option("--radius", options->radius,
+                   "Radius of a ball, in the unit of the coordinates; h is its centre's height")
+      ->type_name("R");
+  verb->add_option("--tool", options->tool,
+                   "Cutter in place of --radius: ball:D, flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE or "
+                   "taper:D:ANGLE:TIP_RADIUS; h is its tip's height")
+      ->type_name("TOOL");
   verb->add_option("--at", options->places, "Places: CSV with columns x and y (others are ignored), or -")
       ->required()->type_name("PTS.csv");
   verb->add_option("-o,--output", options->output, "Result: CSV with columns x,y,h,kind,px,py,pz, or -")

@@ -134,6 +134,11 @@ void add_constructions(Menu& menu) {
                                [&] { return lab::profiles_experiment(profiles->n, session.context("computing")); });
                   });
   Menu::add_sizes(*verb, *profiles, {8, 100, 1000, 10000, 100000}, "Segments");
+  auto sweep = std::make_shared<LabOptions>();
+  verb = menu.add("sweep", "Section 3.3, figure 3.6: crossings that a sweep over cigars meets", sweep, [sweep, &session] {
+    return run(*sweep, session, [&] { return lab::sweep_experiment(sweep->n, session.context("computing")); });
+  });
+  Menu::add_sizes(*verb, *sweep, {12, 50, 100, 200, 400, 800}, "Reaches of the sub-river");
   auto spheres = std::make_shared<LabOptions>();
   menu.add("pseudospheres", "Figure 4.5: three triangles that four balls touch", spheres, [spheres, &session] {
     return run(*spheres, session, [&] { return lab::pseudospheres_experiment(session.context("computing")); });

@@ -50,8 +50,13 @@ int main(int argc, char** argv) {
   krepl::app::add_rivers_verb(program, session);
   krepl::app::add_offset_verb(program, session);
   krepl::app::add_profile_verb(program, session);
+  krepl::app::add_simulate_verb(program, session);
   krepl::app::add_terrain_verb(program, session);
   krepl::app::add_height_verb(program, session);
+  krepl::app::add_contour_verb(program, session);
+  krepl::app::add_section_verb(program, session);
+  krepl::app::add_mill_verb(program, session);
+  krepl::app::add_route_verb(program, session);
   krepl::app::add_verify_verb(program, session);
   krepl::app::add_info_verb(program, session);
   krepl::app::add_view_verb(program, session);

@@ -3,7 +3,18 @@
 
 #include <CLI/CLI.hpp>
 
+#include "verbs.hpp"
+
 namespace krepl::app {
+
+void add_arc_option(CLI::App& verb, double& arc_error) {
+  verb.add_option("--arc-error", arc_error, "Arcs of the input: take chords that deviate by this much at most (else an error)")
+      ->type_name("LENGTH")
+      ->check([](const std::string& text) {
+        const auto parsed = parse_positive("--arc-error", text);
+        return parsed ? std::string() : parsed.error().text();
+      });
+}
 
 void add_network_options(CLI::App& verb, input::NetworkRequest& input, std::string& format) {
   verb.add_option("--layer", input.layer, "Layer to read")->type_name("NAME");
@@ -12,6 +23,7 @@ void add_network_options(CLI::App& verb, input::NetworkRequest& input, std::stri
       ->type_name("EPSG:n");
   verb.add_option("--to-crs", input.to_crs, "Plane coordinate system to project the data to; auto chooses one")
       ->type_name("EPSG:n|auto");
+  add_arc_option(verb, input.arc_error);
   verb.add_option("--format", format, "Format of the result, in place of what its extension says")->type_name("NAME");
 }
 

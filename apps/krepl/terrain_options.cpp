@@ -33,10 +33,11 @@ Result<Terrain::Split> parse_split(const std::string& text) {
 
 std::string TerrainOptions::name() const { return input_name(request.path); }
 
-void add_terrain_options(CLI::App& verb, TerrainOptions& options) {
-  verb.add_option("IN", options.request.path,
-                  "Terrain or part: any GDAL raster, .stl .obj .ply .off, .gz of them, or -")
-      ->required();
+void add_terrain_options(CLI::App& verb, TerrainOptions& options, const std::string& name) {
+  CLI::Option* in = verb.add_option(name, options.request.path,
+                                    "Terrain or part: any GDAL raster, .stl .obj .ply .off, .gz of them, or -")
+                        ->required();
+  if (name != "IN") in->type_name("IN");
   verb.add_option("--crs", options.request.crs, "Coordinate system of the data, in place of what the file says")
       ->type_name("EPSG:n");
   verb.add_option("--to-crs", options.request.to_crs,

@@ -21,9 +21,9 @@ struct TerrainOptions {
   std::string name() const;  ///< as messages have it
 };
 
-/// Declares IN and the options --crs, --to-crs, --z-scale, --split and --band. `options` must live until the verb has
-/// run.
-void add_terrain_options(CLI::App& verb, TerrainOptions& options);
+/// Declares IN (or the option `name` in its place) and the options --crs, --to-crs, --z-scale, --split and --band.
+/// `options` must live until the verb has run.
+void add_terrain_options(CLI::App& verb, TerrainOptions& options, const std::string& name = "IN");
 
 /// What the options mean; an Error of code usage names what is wrong. To be called before anything is read.
 Result<input::TerrainRequest> terrain_request(const TerrainOptions& options);

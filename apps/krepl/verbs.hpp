@@ -85,12 +85,17 @@ Result<double> parse_positive(std::string_view option, std::string_view text);
 
 void add_axis_verb(CLI::App& program, Session& session);
 void add_buffer_verb(CLI::App& program, Session& session);
+void add_contour_verb(CLI::App& program, Session& session);
 void add_height_verb(CLI::App& program, Session& session);
 void add_info_verb(CLI::App& program, Session& session);
 void add_lab_verb(CLI::App& program, Session& session);
+void add_mill_verb(CLI::App& program, Session& session);
 void add_offset_verb(CLI::App& program, Session& session);
 void add_profile_verb(CLI::App& program, Session& session);
 void add_rivers_verb(CLI::App& program, Session& session);
+void add_section_verb(CLI::App& program, Session& session);
+void add_simulate_verb(CLI::App& program, Session& session);
+void add_route_verb(CLI::App& program, Session& session);
 void add_terrain_verb(CLI::App& program, Session& session);
 void add_verify_verb(CLI::App& program, Session& session);
 void add_view_verb(CLI::App& program, Session& session);

@@ -6,14 +6,20 @@
 #include <map>
 #include <memory>
 
+#include "feature_buffer.hpp"
+#include "input/gcode_reader.hpp"
 #include "input/geometry_source.hpp"
 #include "input/profile_reader.hpp"
 #include "input/result_file.hpp"
 #include "input/subdivision_file.hpp"
+#include "network_options.hpp"
+#include "krepl/cutter.hpp"
 #include "shape_options.hpp"
 #include "terrain_options.hpp"
 #include "verbs.hpp"
+#include "verify_features.hpp"
 #include "verify/input_parts.hpp"
+#include "verify/path_verifier.hpp"
 #include "verify/profile_verifier.hpp"
 #include "verify/surface_verifier.hpp"
 #include "verify/zone_verifier.hpp"
@@ -25,10 +31,11 @@ namespace {
 struct VerifyOptions {
   std::string result;
   verify::InputRequest input;
-  std::string radius, max_error;
+  std::string radius, max_error, tool, control_point;
   TerrainOptions terrain;
   ShapeArguments shape;
   std::uint64_t samples = 0;
+  FeatureOptions features;
 };
 
 /// Polygons by radius: a file may hold several zones, and a zone may be spread over several features.
@@ -54,7 +61,9 @@ Result<ZonesByRadius> group(std::vector<input::ResultZone> zones, const std::vec
   return groups;
 }
 
-void print(Session& session, const std::vector<verify::Check>& checks) {
+}  // namespace
+
+void print_checks(Session& session, const std::vector<verify::Check>& checks) {
   session.summary(
       fmt::format("{:<28} {:>9} {:>7} {:>10} {:>10}  {}", "check", "tested", "wrong", "worst", "allowed", "worst at"));
   for (const verify::Check& check : checks) {
@@ -66,12 +75,14 @@ void print(Session& session, const std::vector<verify::Check>& checks) {
   }
 }
 
+namespace {
+
 void print(Session& session, const verify::ZoneReport& report) {
   session.summary(fmt::format("zone of radius {}: {} polygons, {} holes, {} pieces, {} of them arcs", report.radius,
                               report.polygons, report.holes, report.pieces, report.arcs));
   session.summary(fmt::format("area {:.15g}, length {:.15g}, S {:.6g}, tolerance {:.2g}", report.area, report.perimeter,
                               report.scale, report.tolerance));
-  print(session, report.checks);
+  print_checks(session, report.checks);
 }
 
 void print(Session& session, const verify::ProfileReport& report) {
@@ -79,7 +90,7 @@ void print(Session& session, const verify::ProfileReport& report) {
       fmt::format("profile of radius {}: {} segments in, {} pieces out, {} of them arcs, {} explicit vertices",
                   report.radius, report.segments, report.pieces, report.arcs, report.explicit_vertices));
   session.summary(fmt::format("S {:.6g}, tolerance {:.2g}", report.scale, report.tolerance));
-  print(session, report.checks);
+  print_checks(session, report.checks);
 }
 
 void print(Session& session, const verify::SurfaceReport& report) {
@@ -88,7 +99,7 @@ void print(Session& session, const verify::SurfaceReport& report) {
       report.radius, report.triangles, report.faces, report.edges, report.vertices, report.components, report.holes));
   session.summary(fmt::format("area of the projection {:.12g}, S {:.6g}, tolerance {:.2g}", report.area, report.scale,
                               report.tolerance));
-  print(session, report.checks);
+  print_checks(session, report.checks);
 }
 
 /// "is not the WHAT of radius R: names of the broken checks, near X Y".
@@ -112,9 +123,20 @@ verify::ShapeQuestion shape_question(const ShapeOptions& shape, double radius) {
   return question;
 }
 
+/// All polygons are one zone, whose radius is the largest of the features'.
+ZonesByRadius as_one_zone(std::vector<input::ResultZone> zones, const std::vector<verify::InputPart>& parts) {
+  double largest = 0;
+  for (const verify::InputPart& part : parts) largest = std::max(largest, part.radius);
+  ZonesByRadius all;
+  for (input::ResultZone& zone : zones)
+    std::move(zone.polygons.begin(), zone.polygons.end(), std::back_inserter(all[largest]));
+  return all;
+}
+
 int verify_zones(const VerifyOptions& options, Session& session) {
   std::vector<double> radii;
-  if (!options.radius.empty()) {
+  const bool varied = !options.input.radius_field.empty() || !options.input.radius_expression.empty();
+  if (!options.radius.empty() && !varied) {
     auto parsed = parse_signed_radii(options.radius);
     if (!parsed) return session.fail("", parsed.error());
     radii = std::move(*parsed);
@@ -128,16 +150,20 @@ int verify_zones(const VerifyOptions& options, Session& session) {
   }
   auto shape = parse_shape(options.shape);
   if (!shape) return session.fail("", shape.error());
+  const FeatureOptions& f = options.features;
+  if (f.per_feature || !f.dissolve_by.empty() || !f.owner.empty())
+    return verify_features({options.result, options.input, f, radii, check.max_error, options.samples}, session);
   auto zones = input::read_zones(options.result, input::EmptyZones::keep);
   if (!zones) return session.fail(options.result, zones.error());
-  auto groups = group(std::move(*zones), radii);
-  if (!groups) return session.fail(options.result, groups.error());
-  if (groups->empty()) return session.fail(options.result, {ErrorCode::input, "holds no zone", "", ""});
   auto parts = verify::read_parts(options.input, session.context("reading"));
   session.finish_progress();
   if (!parts) return session.fail(options.input.path, parts.error());
+  Result<ZonesByRadius> groups =
+      varied ? Result<ZonesByRadius>(as_one_zone(std::move(*zones), *parts)) : group(std::move(*zones), radii);
+  if (!groups) return session.fail(options.result, groups.error());
+  if (groups->empty()) return session.fail(options.result, {ErrorCode::input, "holds no zone", "", ""});
 
-  const verify::Obstacle obstacle(*parts);
+  const verify::Obstacle obstacle(*parts, groups->rbegin()->first);
   int status = 0;
   for (const auto& [radius, polygons] : *groups) {
     check.radius = radius;
@@ -214,8 +240,79 @@ int verify_surface(const VerifyOptions& options, Session& session) {
   return 0;
 }
 
-int run_verify(const VerifyOptions& options, Session& session) {
+/// The ball of --tool or --radius, and how far its centre is above the points of the path.
+Status path_options(const VerifyOptions& options, verify::PathCheckOptions& check) {
+  if (options.tool.empty() == options.radius.empty())
+    return Error{ErrorCode::usage, "a tool path does not tell its tool", "", "give --tool ball:D"};
+  if (!options.control_point.empty() && options.control_point != "tip" && options.control_point != "centre")
+    return Error{ErrorCode::usage, "--control-point '" + options.control_point + "' is unknown", "",
+                 "give tip or centre"};
+  if (!options.tool.empty()) {
+    const auto cutter = Cutter::parse(options.tool);
+    if (!cutter) return cutter.error();
+    if (cutter->kind() != Cutter::Kind::ball)
+      return Error{ErrorCode::usage, "--tool '" + options.tool + "' is no ball", "", "check it by krepl simulate"};
+    check.radius = cutter->radius();
+  } else {
+    const auto radius = parse_radius(options.radius);
+    if (!radius) return radius.error();
+    check.radius = *radius;
+  }
+  if (!options.max_error.empty()) {
+    const auto parsed = parse_positive("--max-error", options.max_error);
+    if (!parsed) return parsed.error();
+    check.max_error = *parsed;
+  }
+  check.lift = options.control_point == "centre" ? 0 : check.radius;
+  check.samples = options.samples;
+  return std::monostate{};
+}
+
+void print(Session& session, const verify::PathReport& report) {
+  session.summary(fmt::format("tool path of a ball of radius {}: {} moves, length {:.9g}, against {} triangles",
+                              report.radius, report.moves, report.length, report.triangles));
+  session.summary(
+      fmt::format("S {:.6g}, tolerance {:.2g}, a place every {:.3g}", report.scale, report.tolerance, report.step));
+  print(session, report.checks);
+}
+
+int verify_path(const VerifyOptions& options, Session& session) {
+  verify::PathCheckOptions check;
+  if (Status checked = path_options(options, check); !checked) return session.fail("", checked.error());
+  TerrainOptions terrain_options = options.terrain;
+  terrain_options.request.path = options.input.path;
+  terrain_options.request.crs = options.input.crs, terrain_options.request.to_crs = options.input.to_crs;
+  auto request = terrain_request(terrain_options);
+  if (!request) return session.fail("", request.error());
+  auto path = input::read_gcode(options.result, 1, session.context("reading"));
+  session.finish_progress();
+  if (!path) return session.fail(options.result, path.error());
+  for (const std::string& note : path->notes) session.note(options.result, note);
+  auto part = input::read_terrain(*request, session.context("reading"));
+  session.finish_progress();
+  if (!part) return session.fail(options.input.path, part.error());
+  auto report = verify::check_path(path->path, *part->terrain, check, session.context("checking"));
+  session.finish_progress();
+  if (!report) return session.fail(options.result, report.error());
+  print(session, *report);
+  if (!report->ok()) return session.fail(options.result, violation("free path", check.radius, report->checks));
+  session.summary("sound: every check passed");
+  return 0;
+}
+
+bool is_tool_path(const std::string& extension) {
+  return extension == "ngc" || extension == "nc" || extension == "gcode" || extension == "tap";
+}
+
+int run_verify(const VerifyOptions& given, Session& session) {
+  VerifyOptions options = given;
+  if (is_radius_expression(options.radius)) options.input.radius_expression = options.radius;
+  if (!options.radius.empty() && !options.input.radius_field.empty())
+    return session.fail("", {ErrorCode::usage, "--radius and --radius-field exclude each other", "", "give one of them"});
   const std::string extension = input::format_extension(options.result);
+  if (is_tool_path(extension)) return verify_path(options, session);
+  if (!options.tool.empty() || !options.control_point.empty())
+    return session.fail("", {ErrorCode::usage, "--tool and --control-point belong to tool paths (.ngc)", "", ""});
   if (extension == "json" && input::looks_like_subdivision(options.result)) return verify_surface(options, session);
   if (!options.terrain.split.empty() || !options.terrain.z_scale.empty() || options.terrain.request.band != 0)
     return session.fail("", {ErrorCode::usage, "--split, --z-scale and --band belong to subdivisions (.json)", "", ""});
@@ -227,26 +324,39 @@ int run_verify(const VerifyOptions& options, Session& session) {
 void add_verify_verb(CLI::App& program, Session& session) {
   auto options = std::make_shared<VerifyOptions>();
   CLI::App* verb = program.add_subcommand("verify", "Re-check a result against its input by independent brute force");
-  verb->add_option("RESULT", options->result, "Zone (vector file), profile (.csv) or subdivision (.json) to check")
+  verb->add_option("RESULT", options->result,
+                   "Zone (vector file), profile (.csv), subdivision (.json) or tool path (.ngc) to check")
       ->required();
   verb->add_option("--against", options->input.path, "The input that the result was made from")
       ->required()
       ->type_name("IN");
-  verb->add_option("--radius", options->radius, "Radius or radii; may be left out where the result tells them")
+  verb->add_option("--radius", options->radius, "Radius or radii, or an expression of the input's fields; may be left out where the result tells them")
       ->type_name("R");
+  verb->add_option("--radius-field", options->input.radius_field, "Field of the input that holds each feature's radius")
+      ->type_name("NAME");
+  verb->add_flag("--per-feature", options->features.per_feature, "The result was made with --per-feature");
+  verb->add_option("--dissolve-by", options->features.dissolve_by, "The result was made with --dissolve-by FIELD")
+      ->type_name("FIELD");
+  verb->add_option("--owner", options->features.owner, "The result was made with --owner nearest")->type_name("NAME");
   verb->add_option("--layer", options->input.layer, "Layer of the input")->type_name("NAME");
   verb->add_option("--where", options->input.where, "Condition on the input's fields (OGR SQL)")->type_name("SQL");
   verb->add_option("--crs", options->input.crs, "Coordinate system of the input, in place of its own")
       ->type_name("CRS");
   verb->add_option("--to-crs", options->input.to_crs, "Projection that the result was made with")
       ->type_name("CRS|auto");
+  add_arc_option(*verb, options->input.arc_error);
   verb->add_option("--samples", options->samples,
                    "Number of points whose membership is tested, or at which the ball is let down (default: some "
                    "seconds' worth)")
       ->type_name("N");
   add_shape_options(*verb, options->shape);
-  verb->add_option("--max-error", options->max_error, "Deviation allowed to a format without arcs (default: none)")
+  verb->add_option("--max-error", options->max_error,
+                   "Deviation allowed to a format without arcs, or depth to a tool path (default: none)")
       ->type_name("E");
+  verb->add_option("--tool", options->tool, "Tool paths: ball:D")->type_name("TOOL");
+  verb->add_option("--control-point", options->control_point,
+                   "Tool paths: what Z is the height of, tip (default) or centre")
+      ->type_name("NAME");
   verb->add_option("--z-scale", options->terrain.z_scale, "Terrains: as the result was made")->type_name("FACTOR");
   verb->add_option("--split", options->terrain.split, "Rasters: as the result was made")->type_name("NAME");
   verb->add_option("--band", options->terrain.request.band, "Rasters: as the result was made")

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,8 @@ class Surface {
   /// Points of the true curve of edge e along half-edge 2e, both ends included, so many (at least 3) that they are about
   /// equally spaced. At a rim z is that of the upper patch.
   std::vector<Point3> curve(Index e, int points) const;
+  /// Points of that curve between its ends, where the chord does not tell which part of it is meant; for most edges none.
+  std::span<const Point3> guides(Index e) const;
 
   /// Topology by Subdivision::validate(), and labels: the ball touches something on both sides of each edge, or on the
   /// upper one of a rim.

@@ -11,6 +11,7 @@
 #include "krepl/context.hpp"
 #include "krepl/error.hpp"
 #include "krepl/network.hpp"
+#include "krepl/owners.hpp"
 #include "krepl/point.hpp"
 #include "krepl/zone.hpp"
 
@@ -67,6 +68,14 @@ class VoronoiDiagram {
   Result<Zone> zone(const ZoneOptions& options, const Context& context = {}) const;
   /// The zones at several radii, in the order given, side by side on all threads.
   Result<std::vector<Zone>> zones(std::span<const double> radii, const Context& context = {}) const;
+  /// The zone at one radius, shared out among owners: each place of it goes to the owner of the nearest part (straight
+  /// and parabolic borders, along the medial axis between owners); places as near to several, to the lowest of them;
+  /// inside polygons, to the lowest owner of a polygon around. part_owner[p] owns network().part(p). Owners in ascending
+  /// order, without those that have no share; areas add up to the zone's. Chords of parabolas deviate by max_error at
+  /// most. Segments of different owners that overlap without having both ends in common: decided for either. Errors as
+  /// zone(); not one owner for each part; max_error not positive.
+  Result<std::vector<OwnerZone>> owner_zones(double radius, std::span<const std::uint32_t> part_owner, double max_error,
+                                             const Context& context = {}) const;
   /// Faces are cut off at this distance from their site: 2^20 extents of the network (infinite if it has a single
   /// vertex).
   double horizon() const;
@@ -94,5 +103,9 @@ class VoronoiDiagram {
   explicit VoronoiDiagram(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
   std::shared_ptr<const Parts> parts_;
 };
+
+/// Whether one diagram for all radii is the quicker way to their zones, against compute_zone once for each. A diagram costs
+/// about as much as a dozen zones without one (docs/voronoi.md, "Cost"), and ends at its horizon.
+bool diagram_pays(const Network& network, std::span<const double> radii);
 
 }  // namespace krepl

@@ -17,6 +17,10 @@
 
 namespace krepl {
 
+namespace zone {
+struct VariedSites;
+}
+
 /// How often each rung of the ladder of predicates decided, and what the search cost. Printed by `krepl --verbose`.
 struct ZoneCounters {
   std::uint64_t elements = 0;          ///< offset sides and vertex arcs examined
@@ -47,13 +51,14 @@ class Zone {
   };
 
   /// One true piece of the boundary, in absolute coordinates. An arc runs counter-clockwise from start to end about
-  /// center with the zone's radius (start == end: the full circle), unless it is `clockwise`.
+  /// center (start == end: the full circle), unless it is `clockwise`.
   struct Piece {
     Kind kind;
     Point start, end;
     Point center;          ///< arcs only
     std::uint32_t source;  ///< the segment or vertex (`from_vertex`) of network() that causes it
     bool reversed;         ///< segments only: the piece runs from the source segment's b to its a
+    double radius = 0;     ///< of the disk that the source is widened by
     bool clockwise = false;    ///< arcs only: where a polygon shrinks, arcs run round their centre the other way
     bool from_vertex = false;  ///< source is a vertex: all arcs about one, ends and bevels
     Role role = Role::offset;
@@ -65,9 +70,12 @@ class Zone {
     std::span<const std::uint32_t> holes;
   };
 
+  /// Of the disk; the largest where the parts of the network have radii of their own.
   double radius() const { return radius_; }
   /// The radius with a sign: negative where polygons were shrunk.
   double signed_radius() const { return inward_ ? -radius_ : radius_; }
+  /// The smallest.
+  double least_radius() const;
   /// Largest of radius and extent: the S of the accuracy contract.
   double scale() const;
   const Network& network() const { return *network_; }
@@ -99,6 +107,7 @@ class Zone {
   double radius_ = 0;
   bool inward_ = false;
   std::shared_ptr<const Network> network_;
+  std::shared_ptr<const zone::VariedSites> varied_;  // none where there is one radius
   std::vector<Point> vertex_;           // relative to the network's origin; vertex e starts piece e
   std::vector<std::uint32_t> element_;  // per piece: the boundary element it lies on; or, of other shapes,
   std::vector<Piece> shaped_;           // the pieces themselves, relative to the network's origin
@@ -121,6 +130,13 @@ struct ZoneOptions {
 /// Polygons of the network are filled. Errors: radius not finite and positive, or finer than the coordinates' resolution;
 /// cancelled; a result that does not certify. Expected O(n log n); memory about 300 bytes per segment at most.
 Result<Zone> compute_zone(std::shared_ptr<const Network> network, const ZoneOptions& options,
+                          const Context& context = {});
+
+/// The same with a radius for each part of the network (part_radii[p] for network->part(p)): the union of the parts'
+/// own zones, with true arcs of their radii. Where parts share a segment, the largest of their radii counts for it. All
+/// radii equal: the same zone, to the last bit, as with that one. Rings of one feature should have one radius, for a
+/// polygon is filled whole. Errors also: not one radius for each part.
+Result<Zone> compute_zone(std::shared_ptr<const Network> network, std::span<const double> part_radii,
                           const Context& context = {});
 
 }  // namespace krepl

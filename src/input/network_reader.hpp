@@ -17,6 +17,7 @@ struct NetworkRequest {
   std::string where;   ///< OGR's SQL WHERE clause
   std::string crs;     ///< coordinate system of the data, in place of what the file says (or does not say)
   std::string to_crs;  ///< plane coordinate system to project to; `auto` chooses one around the data
+  double arc_error = 0;  ///< chords that deviate by no more stand for arcs; 0: arcs are refused
   std::vector<Point> places = {};  ///< further places, in the coordinates of the file; projected with the data
 };
 
@@ -31,7 +32,7 @@ struct NetworkData {
 /// Reads lines, rings and points into a Network. Feature numbers are OGR's feature ids, for WKT the line numbers.
 ///
 /// Z and M are left out (noted). Errors: what open_geometry_source reports; no feature left; a coordinate that is NaN or
-/// infinite; arcs (they are not linearised silently), surfaces in space; degrees without `to_crs`; a place that the
+/// infinite; arcs without `arc_error` (they are not linearised silently), surfaces in space; degrees without `to_crs`; a place that the
 /// projection does not reach. Each names the feature or line.
 Result<NetworkData> read_network(const NetworkRequest& request, const Context& context = {});
 

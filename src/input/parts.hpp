@@ -20,15 +20,25 @@ struct Parts {
   std::vector<Kind> kind;
   bool has_height = false;  ///< Z or M was left out somewhere
 
+  double arc_error = 0;      ///< largest deviation of chords that may stand for an arc; 0: arcs are refused
+  std::size_t arcs = 0;      ///< arcs that chords stand for
+  double arc_deviation = 0;  ///< how far these chords deviate
+
   std::size_t size() const { return kind.size(); }
-  /// Adds a geometry of any linear type. `place` names it in errors: "feature 7".
+  /// Adds a geometry of any linear or curved type. `place` names it in errors: "feature 7". An arc that two geometries
+  /// share gets the same chords in both, whichever way it runs.
   Status add(const OGRGeometry& geometry, std::int64_t number, const std::string& place);
 
  private:
   Status add_curve(const OGRSimpleCurve& curve, Kind part_kind, std::int64_t number, const std::string& place);
   Status add_polygon(const OGRPolygon& polygon, std::int64_t number, const std::string& place);
   Status add_linear(const OGRGeometry& geometry, std::int64_t number, const std::string& place);
+  Status add_curved(const OGRGeometry& geometry, std::int64_t number, const std::string& place);
+  /// Appends a curve's vertices; its first one is left out if it is there already.
+  Status add_vertices(const OGRCurve& curve, const std::string& place);
+  Status add_arcs(const OGRSimpleCurve& string, const std::string& place);
   Status add_vertex(double x, double y, const std::string& place, std::size_t vertex);
+  Status close_curve(const OGRCurve& curve, Kind part_kind, std::int64_t number, const std::string& place);
   void close_part(Kind part_kind, std::int64_t number);
 };
 

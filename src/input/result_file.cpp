@@ -85,7 +85,7 @@ std::int64_t integer_field(const OGRFeature& feature, const char* name) {
 /// With --separate a zone is several features, one a polygon, which agree in their radius.
 bool continues(const ResultZone& zone, std::optional<double> radius) { return radius && zone.radius == radius; }
 
-Result<std::vector<ResultZone>> collect_zones(GeometrySource& source, EmptyZones empty) {
+Result<std::vector<ResultZone>> collect_zones(GeometrySource& source, bool merge, EmptyZones empty) {
   std::vector<ResultZone> zones;
   for (;;) {
     auto item = source.next();
@@ -93,8 +93,10 @@ Result<std::vector<ResultZone>> collect_zones(GeometrySource& source, EmptyZones
     if (!item->has_value()) break;
     const GeometrySource::Item& record = **item;
     if (record.geometry == nullptr || (record.geometry->IsEmpty() && empty == EmptyZones::drop)) continue;
-    std::optional<double> radius = number_field(record.feature, "radius");
-    auto known = std::find_if(zones.begin(), zones.end(), [&](const ResultZone& z) { return continues(z, radius); });
+    std::optional<double> radius = merge ? std::nullopt : number_field(record.feature, "zone_radius");
+    if (!radius) radius = number_field(record.feature, "radius");
+    auto known =
+        std::find_if(zones.begin(), zones.end(), [&](const ResultZone& z) { return merge && continues(z, radius); });
     if (known == zones.end()) {
       zones.push_back({radius, {}, {}});
       known = zones.end() - 1;
@@ -169,11 +171,9 @@ Result<std::string> zone_layer(const std::vector<std::string>& layers) {
   return Error{ErrorCode::input, "has more than one layer and none is called zone", "", "extract one with ogr2ogr"};
 }
 
-}  // namespace
-
-Result<std::vector<ResultZone>> read_zones(const std::string& path, EmptyZones empty) {
+/// Chooses the layer of zones; `has_pieces` tells if there is one of pieces beside it.
+Result<std::unique_ptr<GeometrySource>> open_zones(const std::string& path, bool& has_pieces) {
   SourceSelection selection;
-  bool has_pieces = false;
   std::string extension = format_extension(path);
   if (path != "-" && extension != "wkt" && extension != "wkb") {
     Result<std::vector<std::string>> layers = geometry_layers(path);
@@ -183,9 +183,23 @@ Result<std::vector<ResultZone>> read_zones(const std::string& path, EmptyZones e
     if (!layer) return layer.error();
     selection.layer = *layer;
   }
-  auto source = open_geometry_source(path, selection);
+  return open_geometry_source(path, selection);
+}
+
+}  // namespace
+
+Result<std::vector<ResultZone>> read_zone_features(const std::string& path) {
+  bool has_pieces = false;
+  auto source = open_zones(path, has_pieces);
   if (!source) return source.error();
-  Result<std::vector<ResultZone>> zones = collect_zones(**source, empty);
+  return collect_zones(**source, false, EmptyZones::drop);
+}
+
+Result<std::vector<ResultZone>> read_zones(const std::string& path, EmptyZones empty) {
+  bool has_pieces = false;
+  auto source = open_zones(path, has_pieces);
+  if (!source) return source.error();
+  Result<std::vector<ResultZone>> zones = collect_zones(**source, true, empty);
   if (!zones || !has_pieces) return zones;
 
   Result<ProvenanceMap> provenance = read_provenance(path);

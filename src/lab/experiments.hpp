@@ -19,6 +19,11 @@ Result<Report> lower_bound_experiment(const std::vector<std::size_t>& n, const C
 /// counts other than the theorems give (computation); cancelled.
 Result<Report> profiles_experiment(const std::vector<std::size_t>& n, const Context& context);
 
+/// Section 3.3, figure 3.6: crossings met by a sweep over all cigars at once and by clean-up in rounds, for a sub-river of
+/// n reaches of which each two cigars overlap, and for one that is spread out. Errors: an n not in [3, 4000] (usage);
+/// fewer crossings than the construction must have, or another zone than compute_zone gives (computation); cancelled.
+Result<Report> sweep_experiment(const std::vector<std::size_t>& n, const Context& context);
+
 /// Figure 4.5: three triangles and the balls that touch all of them, by both engines. Error: not four (computation).
 Result<Report> pseudospheres_experiment(const Context& context);
 

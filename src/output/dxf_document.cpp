@@ -220,7 +220,8 @@ DxfDocument::DxfDocument(OutputStream& stream, const std::vector<std::string>& l
 
 DxfDocument::~DxfDocument() = default;
 
-void DxfDocument::put(const std::vector<Vertex>& vertices, bool closed, const std::string& layer) {
+void DxfDocument::put(const std::vector<Vertex>& vertices, bool closed, const std::string& layer,
+                      double elevation) {
   Text& text = *text_;
   text.group(0, "LWPOLYLINE");
   text.handle(5, text.new_handle());
@@ -230,6 +231,7 @@ void DxfDocument::put(const std::vector<Vertex>& vertices, bool closed, const st
   text.group(100, "AcDbPolyline");
   text.group(90, vertices.size());
   text.group(70, closed ? 1 : 0);
+  if (elevation != 0) text.group(38, elevation);
   for (const Vertex& vertex : vertices) {
     text.group(10, vertex.at.x);
     text.group(20, vertex.at.y);

@@ -25,7 +25,8 @@ class DxfDocument {
   DxfDocument(const DxfDocument&) = delete;
   DxfDocument& operator=(const DxfDocument&) = delete;
 
-  void put(const std::vector<Vertex>& vertices, bool closed, const std::string& layer);
+  /// `elevation`: z of all vertices.
+  void put(const std::vector<Vertex>& vertices, bool closed, const std::string& layer, double elevation = 0);
   /// To be called once, after the last polyline.
   void finish();
 

@@ -25,9 +25,14 @@ double step_of(double radius, double max_error) {
 
 }  // namespace
 
-Linearizer::Linearizer(double radius, double max_error) : radius_(radius), largest_step_(step_of(radius, max_error)) {}
+Linearizer::Linearizer(double radius, double max_error)
+    : radius_(radius), max_error_(max_error), largest_step_(step_of(radius, max_error)) {}
 
 void Linearizer::append_arc(const Zone::Piece& arc, std::vector<Point>& points) {
+  if (arc.radius > 0 && arc.radius != radius_) {
+    radius_ = arc.radius;
+    largest_step_ = step_of(radius_, max_error_);
+  }
   double angle = arc_angle(arc);
   auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(angle / largest_step_)));
   double step = angle / static_cast<double>(count);

@@ -14,7 +14,7 @@ namespace krepl::output {
 /// and its arc is inside one disk, and no boundary runs through the inside of a disk.)
 class Linearizer {
  public:
-  /// max_error > 0, in the unit of the coordinates.
+  /// max_error > 0, in the unit of the coordinates. `radius`: of arcs that do not tell their own.
   Linearizer(double radius, double max_error);
 
   /// The ring's vertices; first and last are equal.
@@ -28,7 +28,7 @@ class Linearizer {
   static double finest(double radius) { return 1e-12 * radius; }
 
  private:
-  double radius_;
+  double radius_, max_error_;
   double largest_step_;
   double deviation_ = 0;
 };

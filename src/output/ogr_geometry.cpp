@@ -40,12 +40,15 @@ std::unique_ptr<OGRCompoundCurve> compound_curve(const std::vector<CurveRun>& ru
   return compound;
 }
 
+std::unique_ptr<OGRCurve> ring_of_runs(const std::vector<CurveRun>& runs) {
+  if (runs.size() == 1) return run_curve(runs.front());
+  return compound_curve(runs);
+}
+
 namespace {
 
 std::unique_ptr<OGRCurve> ring_curve(const Zone& zone, std::uint32_t ring) {
-  std::vector<CurveRun> runs = ring_runs(zone, ring);
-  if (runs.size() == 1) return run_curve(runs.front());
-  return compound_curve(runs);
+  return ring_of_runs(ring_runs(zone, ring));
 }
 
 std::unique_ptr<OGRCurvePolygon> curve_polygon(const Zone& zone, std::uint32_t p) {

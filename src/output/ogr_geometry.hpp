@@ -15,6 +15,9 @@ std::unique_ptr<OGRLineString> line_geometry(std::span<const Point> points);
 /// Runs that follow each other as a COMPOUNDCURVE.
 std::unique_ptr<OGRCompoundCurve> compound_curve(const std::vector<CurveRun>& runs);
 
+/// A closed ring: a single run as it is, several as a COMPOUNDCURVE.
+std::unique_ptr<OGRCurve> ring_of_runs(const std::vector<CurveRun>& runs);
+
 /// The piece as a COMPOUNDCURVE, so that all pieces of a layer are of one type.
 std::unique_ptr<OGRCompoundCurve> piece_geometry(const Zone& zone, std::uint32_t piece);
 

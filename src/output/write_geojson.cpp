@@ -52,7 +52,7 @@ Status write_feature(OutputStream& stream, const Zone& zone, const ZoneFeature& 
   fmt::format_to(std::back_inserter(text),
                  "{{\"type\": \"Feature\", \"properties\": {{\"radius\": {}, \"area\": {}, \"perimeter\": {}, "
                  "\"polygons\": {}, \"holes\": {}}}, \"geometry\": {{\"type\": \"{}\", \"coordinates\": ",
-                 feature.radius, feature.area, feature.perimeter, feature.polygon_count, feature.holes,
+                 feature.radius ? fmt::format("{}", *feature.radius) : "null", feature.area, feature.perimeter, feature.polygon_count, feature.holes,
                  single ? "Polygon" : "MultiPolygon");
   if (!single) text.push_back('[');
   for (std::uint32_t i = 0; i < feature.polygon_count; ++i) {

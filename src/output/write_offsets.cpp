@@ -3,91 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
-#include "output/dxf_document.hpp"
-#include "output/linear.hpp"
+#include "output/curve_pieces.hpp"
 #include "output/offset_file.hpp"
 #include "output/ogr_dataset.hpp"
 #include "output/ogr_geometry.hpp"
 #include "output/output_stream.hpp"
 #include "output/svg_text.hpp"
-#include "output/zone_curves.hpp"
 
 namespace krepl::output {
 
 namespace {
 
-using Piece = OffsetCurve::Piece;
-
 Error interrupted() { return {ErrorCode::cancelled, "interrupted while writing", "", ""}; }
-
-/// The arc as zones have it: counter-clockwise.
-Zone::Piece as_zone_piece(const Piece& p) {
-  const Zone::Kind kind = p.arc ? Zone::Kind::arc : Zone::Kind::segment;
-  return p.arc && p.clockwise ? Zone::Piece{kind, p.end, p.start, p.center, 0, false}
-                              : Zone::Piece{kind, p.start, p.end, p.center, 0, false};
-}
-
-bool is_arc(const Piece& p) { return p.arc && !is_negligible(as_zone_piece(p)); }
-
-/// Turned round where the arc is clockwise.
-template <class T>
-std::vector<T> in_sense(const Piece& p, std::vector<T> points) {
-  if (p.clockwise) std::reverse(points.begin(), points.end());
-  return points;
-}
-
-std::vector<CurveRun> runs_of(const OffsetCurve& curve) {
-  std::vector<CurveRun> runs;
-  for (const Piece& piece : curve.pieces) {
-    const bool arc = is_arc(piece);
-    if (runs.empty() || runs.back().arc != arc) runs.push_back({arc, {piece.start}});
-    const std::vector<Point> along =
-        arc ? in_sense(piece, arc_points(as_zone_piece(piece))) : std::vector<Point>{piece.start, piece.end};
-    runs.back().points.insert(runs.back().points.end(), along.begin() + 1, along.end());
-  }
-  return runs;
-}
-
-std::vector<Point> chords_of(const OffsetCurve& curve, Linearizer& linearizer) {
-  std::vector<Point> points{curve.pieces.front().start};
-  for (const Piece& piece : curve.pieces) {
-    if (!is_arc(piece)) {
-      points.push_back(piece.end);
-      continue;
-    }
-    const Zone::Piece arc = as_zone_piece(piece);
-    std::vector<Point> along{arc.start};
-    linearizer.append_arc(arc, along);
-    along = in_sense(piece, std::move(along));
-    points.insert(points.end(), along.begin() + 1, along.end());
-  }
-  return points;
-}
-
-void put_points(fmt::memory_buffer& text, const std::vector<Point>& points) {
-  const char* before = "(";
-  for (Point p : points) {
-    fmt::format_to(std::back_inserter(text), "{}{} {}", before, p.x, p.y);
-    before = ", ";
-  }
-  text.push_back(')');
-}
-
-std::string wkt(const OffsetCurve& curve) {
-  const std::vector<CurveRun> runs = runs_of(curve);
-  fmt::memory_buffer text;
-  const auto put = [&](std::string_view s) { text.append(s.data(), s.data() + s.size()); };
-  put(runs.size() > 1 ? "COMPOUNDCURVE (" : runs[0].arc ? "" : "LINESTRING ");
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    put(i > 0 ? ", " : "");
-    put(runs[i].arc ? "CIRCULARSTRING " : "");
-    put_points(text, runs[i].points);
-  }
-  put(runs.size() > 1 ? ")\n" : "\n");
-  return fmt::to_string(text);
-}
 
 using Written = Result<ZoneFileReport>;
 
@@ -107,7 +35,7 @@ Written write_stream(const std::string& path, std::span<const OffsetSet> sets, c
 }
 
 void put_wkb(OutputStream& stream, const OffsetCurve& curve) {
-  const auto geometry = compound_curve(runs_of(curve));
+  const auto geometry = compound_curve(runs_of(curve.pieces));
   std::vector<unsigned char> bytes(geometry->WkbSize());
   geometry->exportToWkb(wkbNDR, bytes.data(), wkbVariantIso);
   stream.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
@@ -127,20 +55,7 @@ Written write_dxf_curves(const std::string& path, std::span<const OffsetSet> set
   for (const OffsetSet& set : sets) {
     for (const OffsetCurve& curve : set.curves) {
       if (context.cancelled()) return interrupted();
-      std::vector<DxfDocument::Vertex> vertices;
-      for (const Piece& piece : curve.pieces) {
-        if (!is_arc(piece)) {
-          vertices.push_back({piece.start, 0});
-          continue;
-        }
-        // A bulge stands at the start of its arc: turned round, each goes to the other end.
-        auto along = DxfDocument::arc_vertices(as_zone_piece(piece));
-        along.push_back({as_zone_piece(piece).end, 0});
-        for (std::size_t i = along.size() - 1; piece.clockwise && i > 0; --i) along[i].bulge = -along[i - 1].bulge;
-        along = in_sense(piece, std::move(along));
-        vertices.insert(vertices.end(), along.begin(), along.end() - 1);
-      }
-      if (!curve.closed) vertices.push_back({curve.pieces.back().end, 0});
+      const auto vertices = bulges_of(curve.pieces, curve.closed);
       document.put(vertices, curve.closed, name(set));
     }
   }
@@ -173,7 +88,7 @@ void put_svg_head(SvgText& text, std::span<const OffsetSet> sets, const Network&
 void put_svg_curve(SvgText& text, const OffsetCurve& curve, double radius) {
   text.put("<path d=\"");
   text.put_absolute('M', curve.pieces.front().start);
-  for (const Piece& piece : curve.pieces) {
+  for (const CurvePiece& piece : curve.pieces) {
     if (!is_arc(piece)) {
       text.put_absolute('L', piece.end);
       continue;
@@ -238,9 +153,9 @@ Status write_layer(OgrDataset& dataset, std::span<const OffsetSet> sets, const O
         row.SetField("part", GIntBig(curve.part));
       }
       if (curves)
-        row.SetGeometryDirectly(compound_curve(runs_of(curve)).release());
+        row.SetGeometryDirectly(compound_curve(runs_of(curve.pieces)).release());
       else
-        row.SetGeometryDirectly(line_geometry(chords_of(curve, linearizer)).release());
+        row.SetGeometryDirectly(line_geometry(chords_of(curve.pieces, linearizer)).release());
       if (Status added = dataset.add(**layer, row); !added) return added;
     }
     if (!curves) report.deviation = std::max(report.deviation.value_or(0), linearizer.deviation());
@@ -261,7 +176,7 @@ Result<ZoneFileReport> write_offsets(const std::string& path, std::span<const Of
   }
   switch (format.kind) {
     case ZoneFormat::Kind::wkt:
-      return write_stream(path, sets, context, [](OutputStream& s, const OffsetCurve& curve) { s.write(wkt(curve)); });
+      return write_stream(path, sets, context, [](OutputStream& s, const OffsetCurve& curve) { s.write(wkt_of(curve.pieces)); });
     case ZoneFormat::Kind::wkb:
       return write_stream(path, sets, context, put_wkb);
     case ZoneFormat::Kind::dxf:

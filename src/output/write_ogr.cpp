@@ -59,7 +59,7 @@ Status OgrWriter::write_zone(OGRLayer& layer, const Zone& zone, bool curves) {
     if (context_.cancelled()) return interrupted_while_writing();
     OGRFeature feature(layer.GetLayerDefn());
     if (dataset_.has_fields()) {
-      feature.SetField("radius", from.radius);
+      if (from.radius) feature.SetField("radius", *from.radius);
       feature.SetField("area", from.area);
       feature.SetField("perimeter", from.perimeter);
       feature.SetField("polygons", static_cast<int>(from.polygon_count));
@@ -108,12 +108,12 @@ Status OgrWriter::add_piece(OGRLayer& layer, const Zone& zone, std::uint32_t pie
   Zone::Piece from = zone.piece(piece);
   Network::Source source = from.from_vertex ? zone.network().vertex_source(from.source) : zone.network().segment_source(from.source);
   OGRFeature feature(layer.GetLayerDefn());
-  feature.SetField("radius", zone.signed_radius());
+  feature.SetField("radius", zone.signed_radius() < 0 ? -from.radius : from.radius);
   feature.SetField("kind", kind_of(from));
   feature.SetField("source_feature", static_cast<GIntBig>(source.feature));
   feature.SetField("source_part", static_cast<GIntBig>(source.part));
   feature.SetField("source_vertex", static_cast<GIntBig>(source.vertex));
-  feature.SetField("length", piece_length(from, zone.radius()));
+  feature.SetField("length", piece_length(from));
   feature.SetGeometryDirectly(piece_geometry(zone, piece).release());
   return dataset_.add(layer, feature);
 }

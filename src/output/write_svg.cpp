@@ -26,7 +26,7 @@ void put_ring(SvgText& text, const Zone& zone, std::uint32_t ring) {
       continue;
     }
     std::vector<Point> ends = arc_ends(piece, largest_svg_arc);
-    for (std::size_t i = 1; i < ends.size(); ++i) text.put_arc(zone.radius(), ends[i], piece.clockwise);
+    for (std::size_t i = 1; i < ends.size(); ++i) text.put_arc(piece.radius, ends[i], piece.clockwise);
   }
   text.put("Z");
 }

@@ -109,8 +109,8 @@ std::vector<Point> arc_ends(const Zone::Piece& piece, double largest) {
   return as_it_runs(piece, std::move(ends));
 }
 
-double piece_length(const Zone::Piece& piece, double radius) {
-  if (piece.kind == Zone::Kind::arc && !is_negligible(piece)) return radius * arc_angle(piece);
+double piece_length(const Zone::Piece& piece) {
+  if (piece.kind == Zone::Kind::arc && !is_negligible(piece)) return piece.radius * arc_angle(piece);
   return std::hypot(piece.end.x - piece.start.x, piece.end.y - piece.start.y);
 }
 
@@ -133,16 +133,15 @@ std::vector<CurveRun> ring_runs(const Zone& zone, std::uint32_t ring) {
 
 RingMeasure measure_ring(const Zone& zone, std::uint32_t ring) {
   RingMeasure measure;
-  double r = zone.radius();
   // Relative to the ring's first point: large coordinates would cancel.
   Point base = zone.piece(zone.ring_begin(ring)).start;
   for (std::uint32_t e = zone.ring_begin(ring); e < zone.ring_begin(ring + 1); ++e) {
     Zone::Piece piece = zone.piece(e);
     measure.area += cross(minus(piece.start, base), minus(piece.end, base)) / 2;
-    measure.length += piece_length(piece, r);
+    measure.length += piece_length(piece);
     if (piece.kind != Zone::Kind::arc) continue;
     double angle = arc_angle(piece);
-    measure.area += (piece.clockwise ? -1 : 1) * r * r * (angle - std::sin(angle)) / 2;
+    measure.area += (piece.clockwise ? -1 : 1) * piece.radius * piece.radius * (angle - std::sin(angle)) / 2;
   }
   return measure;
 }

@@ -33,7 +33,7 @@ std::vector<Point> arc_points(const Zone::Piece& arc);
 /// The arc cut into `2^k` equal parts of at most `largest` radians: their ends, start and end included, as it runs.
 std::vector<Point> arc_ends(const Zone::Piece& arc, double largest);
 
-double piece_length(const Zone::Piece& piece, double radius);
+double piece_length(const Zone::Piece& piece);
 
 /// The ring as runs, alternating between lines and arcs; the last point of a run is the first of the next.
 std::vector<CurveRun> ring_runs(const Zone& zone, std::uint32_t ring);

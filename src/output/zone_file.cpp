@@ -116,7 +116,9 @@ Result<ZoneFormat> find_zone_format(const std::string& path, const std::string& 
 
 std::vector<ZoneFeature> zone_features(const Zone& zone, bool separate) {
   auto polygons = static_cast<std::uint32_t>(zone.polygon_count());
-  if (!separate) return {{0, polygons, zone.signed_radius(), zone.area(), zone.perimeter(), zone.hole_count()}};
+  std::optional<double> radius;
+  if (zone.least_radius() == zone.radius()) radius = zone.signed_radius();
+  if (!separate) return {{0, polygons, radius, zone.area(), zone.perimeter(), zone.hole_count()}};
   std::vector<ZoneFeature> features;
   features.reserve(polygons);
   for (std::uint32_t p = 0; p < polygons; ++p) {
@@ -127,7 +129,7 @@ std::vector<ZoneFeature> zone_features(const Zone& zone, bool separate) {
       total.area += measure.area;
       total.length += measure.length;
     }
-    features.push_back({p, 1, zone.signed_radius(), total.area, total.length, polygon.holes.size()});
+    features.push_back({p, 1, radius, total.area, total.length, polygon.holes.size()});
   }
   return features;
 }

@@ -3,6 +3,7 @@
 // The writers behind write_zones, one a format, and what they share.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,7 +19,8 @@ namespace krepl::output {
 /// One feature of a file: some polygons of a zone.
 struct ZoneFeature {
   std::uint32_t first_polygon = 0, polygon_count = 0;
-  double radius = 0, area = 0, perimeter = 0;
+  std::optional<double> radius;  ///< none where parts of the input have radii of their own
+  double area = 0, perimeter = 0;
   std::uint64_t holes = 0;
 };
 

@@ -334,7 +334,7 @@ bool Cells<Real>::settle_star(const Box& box, bool smallest) {
       !std::all_of(turns_.begin(), turns_.end(), [&](const Turn& t) { return stays_wall(t, *found, box); }))
     return false;
   const Point p = found ? *found : least_gap(box);
-  add_vertex(corner_beside(p, box).value_or(p));
+  add_vertex(corner_beside(p).value_or(p));
   return true;
 }
 
@@ -376,9 +376,10 @@ PointOf<Real> Cells<Real>::least_gap(const Box& box) const {
 }
 
 /// The corner at which a patch's sides end that bound it at two turns in a row, if it lies close to p. Where the two
-/// are tangent, the patch is too thin to show for a stretch beyond its corner.
+/// are tangent, the patch is too thin to show for a stretch beyond its corner. The same if the patch's own wall runs in the
+/// foot of a higher one.
 template <class Real>
-std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p, const Box& box) const {
+std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
   const PatchSet<Real>& patches = envelope_.patches();
   std::optional<Point> nearest;
   Real steepest = 1;
@@ -390,9 +391,12 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p, const Box& box)
       std::max(0x1p-12 * patches.radius(), 4 * steepest * square_root(patches.radius() * envelope_.rim_width()));
   for (std::size_t i = 0; i < turns_.size(); ++i) {
     const Turn &from = turns_[i], &to = turns_[(i + 1) % turns_.size()];
-    Index patch = none;
-    if (from.after == none || !sides_of_one_patch(from, to, box, patch) || patch != from.after) continue;
-    const Bound *a = side_along(from), *b = side_along(to);
+    const Index patch = from.after;
+    if (patch == none) continue;
+    const auto side_of = [&](const Turn& t) {
+      return t.meeting == Meeting::rim && !is_wall_of(t, patch) ? envelope_.rim_at(patch, t.at) : side_along(t);
+    };
+    const Bound *a = side_of(from), *b = side_of(to);
     if (a == nullptr || b == nullptr || a == b) continue;
     for (const Point c : patches.corners(patch)) {
       const Real apart = norm(c.x - p.x, c.y - p.y);

@@ -85,7 +85,7 @@ class Cells {
   std::optional<Point> star_point(const Box& box) const;
   bool is_steep() const;
   Point least_gap(const Box& box) const;
-  std::optional<Point> corner_beside(Point p, const Box& box) const;
+  std::optional<Point> corner_beside(Point p) const;
   std::optional<Point> common_corner(const Box& box) const;
   bool all_reach(Point p) const;
   bool reaches(Index patch, Point p) const;

@@ -18,7 +18,7 @@ constexpr std::size_t run_places = 256;                    // of a list, done on
 constexpr std::size_t most_sorted = std::size_t{1} << 32;  // of a list: numbers of 32 bits
 constexpr std::size_t samples_in_cache = std::size_t{1} << 19;
 
-/// Radii that double precision can hold together with coordinates of this size.
+/// Cutters that double precision can hold together with coordinates of this size.
 Status check_radius(double radius, double extent) {
   if (!std::isfinite(radius) || !(radius > 0)) {
     return Error{ErrorCode::usage, "the radius is not a finite number greater than zero", "",
@@ -28,6 +28,15 @@ Status check_radius(double radius, double extent) {
     const std::string how = radius < extent ? "small" : "large";
     return Error{ErrorCode::usage, "the radius is too " + how + " for the terrain's coordinates in double precision", "",
                  "give one in the unit of the terrain"};
+  }
+  return std::monostate{};
+}
+
+Status check_cutter(const Cutter& cutter, double extent) {
+  if (Status checked = check_radius(cutter.radius(), extent); !checked) return checked.error();
+  if (cutter.corner_radius() > 0 && cutter.corner_radius() < 0x1p-50 * cutter.radius()) {
+    return Error{ErrorCode::usage, "the tool's corner radius is too small beside its diameter for double precision", "",
+                 "give a flat tool or a cone without a tip radius"};
   }
   return std::monostate{};
 }
@@ -70,24 +79,36 @@ std::vector<std::uint64_t> along_curve(std::span<const Point> places, const Terr
 }  // namespace
 
 Result<DropCutter> DropCutter::build(std::shared_ptr<const Terrain> terrain, double radius, const Context& context) {
+  if (Status checked = check_radius(radius, terrain->extent()); !checked) return checked.error();
+  return build(std::move(terrain), *Cutter::ball(2 * radius), context);
+}
+
+Result<DropCutter> DropCutter::build(std::shared_ptr<const Terrain> terrain, const Cutter& cutter,
+                                     const Context& context) {
   const double extent = terrain->extent();
   if (!(extent >= 1e-20 && extent <= 1e30)) {
     return Error{ErrorCode::input, "the terrain's coordinates are outside 1e-20 .. 1e30", "", "scale them"};
   }
-  if (Status checked = check_radius(radius, extent); !checked) return checked.error();
+  if (Status checked = check_cutter(cutter, extent); !checked) return checked.error();
   auto hierarchy = std::make_shared<const Hierarchy>(*terrain, context);
   if (context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
-  return DropCutter(std::move(terrain), std::move(hierarchy), radius);
+  return DropCutter(std::move(terrain), std::move(hierarchy), cutter);
 }
 
 Result<DropCutter> DropCutter::with_radius(double radius) const {
   if (Status checked = check_radius(radius, hierarchy_->extent()); !checked) return checked.error();
-  return DropCutter(terrain_, hierarchy_, radius);
+  return with_cutter(*Cutter::ball(2 * radius));
+}
+
+Result<DropCutter> DropCutter::with_cutter(const Cutter& cutter) const {
+  if (Status checked = check_cutter(cutter, hierarchy_->extent()); !checked) return checked.error();
+  return DropCutter(terrain_, hierarchy_, cutter);
 }
 
 DropCutter::Contact DropCutter::at(Point place) const {
   Hierarchy::Trace none;
-  return hierarchy_->with_tree([&](const auto& tree) { return hierarchy_->touch(tree, place, radius_, none); });
+  return with_tools(
+      [&](const auto& tree, const auto& tool) { return hierarchy_->touch(tree, Hierarchy::over(place, tool), none); });
 }
 
 Status DropCutter::at(std::span<const Point> places, std::span<Contact> contacts, const Context& context) const {
@@ -95,19 +116,20 @@ Status DropCutter::at(std::span<const Point> places, std::span<Contact> contacts
     return Error{ErrorCode::usage, "there is not one contact for each place", "", ""};
   }
   std::vector<std::uint64_t> order;  // empty: as given
-  if (is_sorting_worthwhile(*terrain_, radius_) && places.size() < most_sorted && is_scattered(places, radius_))
+  if (is_sorting_worthwhile(*terrain_, radius()) && places.size() < most_sorted && is_scattered(places, radius()))
     order = along_curve(places, *terrain_, context);
   kernel::Progress progress(context, places.size());
-  const bool done = kernel::parallel_blocks(context, places.size(), run_places, [&](std::size_t first, std::size_t last) {
-    hierarchy_->with_tree([&](const auto& tree) {
-      Hierarchy::Trace trace;
-      for (std::size_t k = first; k < last; ++k) {
-        const std::size_t i = order.empty() ? k : std::size_t(std::uint32_t(order[k]));
-        contacts[i] = hierarchy_->touch(tree, places[i], radius_, trace);
-      }
-    });
-    progress.add(last - first);
-  });
+  const bool done =
+      kernel::parallel_blocks(context, places.size(), run_places, [&](std::size_t first, std::size_t last) {
+        with_tools([&](const auto& tree, const auto& tool) {
+          Hierarchy::Trace trace;
+          for (std::size_t k = first; k < last; ++k) {
+            const std::size_t i = order.empty() ? k : std::size_t(std::uint32_t(order[k]));
+            contacts[i] = hierarchy_->touch(tree, Hierarchy::over(places[i], tool), trace);
+          }
+        });
+        progress.add(last - first);
+      });
   if (!done) return Error{ErrorCode::cancelled, "cancelled", "", ""};
   return std::monostate{};
 }

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "kernel/outward_rounding.hpp"
+#include "terrain/drop_cutter_touch.hpp"
 
 namespace krepl::drop {
 
@@ -94,8 +95,10 @@ inline float down(double x) { return kernel::float_below(x); }
 
 /// What the bounds need to know of the ball. All lengths in bounds are in units of Scale::unit.
 struct BallBound {
+  static constexpr double slack_per_radius = 0;
   float radius, squared, squared_up;
   float blur;  // what rounding to single precision may have moved coordinates relative to the place by
+  BallBound(const Ball& ball, double inverse_unit, double moved) : BallBound(ball.radius * inverse_unit, moved) {}
   BallBound(double r, double moved)
       : radius(float(r)), squared(radius * radius), squared_up(squared * (1 + 0x1p-20f)), blur(float(moved)) {}
 };

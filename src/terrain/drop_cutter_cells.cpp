@@ -85,8 +85,8 @@ Float4 GridPyramid::falling(std::size_t column, std::size_t row) const {
 template <class Query, class Each>
 void GridPyramid::for_each_triangle(const Query& query, std::size_t column, std::size_t first_row, std::size_t last_row,
                                     const Each& each) const {
-  const double x = (t_.grid_x(column) - query.ball.place.x) * scale_.inverse_unit;
-  const double y = (t_.grid_y(first_row) - query.ball.place.y) * scale_.inverse_unit;
+  const double x = (t_.grid_x(column) - query.tool.place.x) * scale_.inverse_unit;
+  const double y = (t_.grid_y(first_row) - query.tool.place.y) * scale_.inverse_unit;
   FourCells c;
   c.x0 = Float4(float(x)) + Float4::load(lanes) * Float4(width_), c.x1 = c.x0 + Float4(width_);
   c.whole = complete_ && column + arity < columns_;
@@ -107,6 +107,7 @@ void GridPyramid::for_each_triangle(const Query& query, std::size_t column, std:
   }
 }
 
+template <class Search>
 void GridPyramid::visit_cells(Search& search, std::size_t column, std::size_t first_row, std::size_t last_row) const {
   Candidates<64> found;
   for_each_triangle(search, column, first_row, last_row,
@@ -122,16 +123,15 @@ void GridPyramid::visit_cells(Search& search, std::size_t column, std::size_t fi
   }
 }
 
+template void GridPyramid::visit_cells(Search&, std::size_t, std::size_t, std::size_t) const;
+template void GridPyramid::visit_cells(ProfileSearch&, std::size_t, std::size_t, std::size_t) const;
+
 void GridPyramid::list_cells(const Survey& survey, std::size_t column, std::size_t first_row, std::size_t last_row,
                              Shortlist& shortlist) const {
   for_each_triangle(survey, column, first_row, last_row,
                     [&](const FourTriangles& four, unsigned worth, const float* bounds, Index first) {
                       shortlist.add(four, worth, bounds, [&](unsigned lane) { return first + 2 * lane; });
                     });
-}
-
-void GridPyramid::touch(Search& search, Index triangle) const {
-  if (triangle != search.skip) search.touch(part(triangle), triangle);
 }
 
 Part GridPyramid::part(Index triangle) const {

@@ -100,9 +100,10 @@ bool GridPyramid::reach(const Query& query, double margin_x, double margin_y, Re
     last = std::min(std::size_t(std::min(high, double(count))), count - 1);
     return true;
   };
-  const double x = query.ball.place.x - grid_.first.x, y = query.ball.place.y - grid_.first.y;
-  const double rx = query.ball.radius + margin_x, ry = query.ball.radius + margin_y;
-  return range((x - rx) * inverse_cell_.x, (x + rx) * inverse_cell_.x, columns_ - 1, reach.first_column, reach.last_column) &&
+  const double x = query.tool.place.x - grid_.first.x, y = query.tool.place.y - grid_.first.y;
+  const double rx = query.tool.radius + margin_x, ry = query.tool.radius + margin_y;
+  return range((x - rx) * inverse_cell_.x, (x + rx) * inverse_cell_.x, columns_ - 1, reach.first_column,
+               reach.last_column) &&
          range((y - ry) * inverse_cell_.y, (y + ry) * inverse_cell_.y, rows_ - 1, reach.first_row, reach.last_row);
 }
 
@@ -133,8 +134,8 @@ unsigned GridPyramid::bound_children(const Query& query, const Reach& reach, std
   const std::size_t r1 = std::min(arity - 1, reach.last_row / size - j);
   FourBlocks p;
   const float width = float(size) * width_, height = float(size) * height_;
-  const double x = (grid_.first.x + double(i * size) * grid_.cell_x - query.ball.place.x) * scale_.inverse_unit;
-  const double y = (grid_.first.y + double(j * size) * grid_.cell_y - query.ball.place.y) * scale_.inverse_unit;
+  const double x = (grid_.first.x + double(i * size) * grid_.cell_x - query.tool.place.x) * scale_.inverse_unit;
+  const double y = (grid_.first.y + double(j * size) * grid_.cell_y - query.tool.place.y) * scale_.inverse_unit;
   p.x0 = Float4(float(x)) + Float4::load(lanes) * Float4(width);
   p.x1 = p.x0 + Float4(width);
   unsigned worth = 0;
@@ -148,6 +149,7 @@ unsigned GridPyramid::bound_children(const Query& query, const Reach& reach, std
   return worth;
 }
 
+template <class Search>
 void GridPyramid::run(Search& search) const {
   Reach reach;
   if (!this->reach(search, 0, 0, reach)) return;
@@ -161,7 +163,7 @@ void GridPyramid::run(Search& search) const {
   visit(search, reach, level, found);
 }
 
-template <std::size_t capacity>
+template <class Search, std::size_t capacity>
 void GridPyramid::add_children(const Search& search, const Reach& reach, std::size_t level, std::size_t column,
                                std::size_t row, Candidates<capacity>& found) const {
   float bounds[16];
@@ -171,8 +173,9 @@ void GridPyramid::add_children(const Search& search, const Reach& reach, std::si
   }
 }
 
-template <std::size_t capacity>
-void GridPyramid::visit(Search& search, const Reach& reach, std::size_t level, const Candidates<capacity>& found) const {
+template <class Search, std::size_t capacity>
+void GridPyramid::visit(Search& search, const Reach& reach, std::size_t level,
+                        const Candidates<capacity>& found) const {
   for (const auto& entry : found) {
     if (entry.bound < search.threshold_of_blocks()) return;
     if (level == 0) {
@@ -185,6 +188,9 @@ void GridPyramid::visit(Search& search, const Reach& reach, std::size_t level, c
     visit(search, reach, level - 1, below);
   }
 }
+
+template void GridPyramid::run(Search&) const;
+template void GridPyramid::run(ProfileSearch&) const;
 
 void GridPyramid::list(const Survey& survey, Shortlist& shortlist) const {
   Reach reach;

@@ -19,19 +19,26 @@ class GridPyramid {
  public:
   GridPyramid(const Terrain& terrain, const Scale& scale, const Context& context);
 
-  Search search(Point place, double radius) const { return {scale_, place, radius, moved(place, radius)}; }
+  template <class Tool>
+  ToolSearch<Tool> search(const Tool& tool) const {
+    return {scale_, tool, moved(tool.place, tool.radius)};
+  }
   Survey survey(Point centre, double radius, const ManyPlaces& spread) const {
-    return {scale_, centre, radius, moved(centre, radius), spread};
+    return {scale_, ball_over(centre, radius), moved(centre, radius), spread};
   }
   double inverse_unit() const { return scale_.inverse_unit; }
   double cell() const { return std::sqrt(grid_.cell_x * grid_.cell_y); }
 
-  /// Looks at all triangles that may be touched.
+  /// Looks at all triangles that may be touched. Searches are those of balls and of other cutters.
+  template <class Search>
   void run(Search& search) const;
   /// Lists all triangles that may be touched over some place of the survey.
   void list(const Survey& survey, Shortlist& shortlist) const;
   /// Looks at one triangle.
-  void touch(Search& search, Index triangle) const;
+  template <class Search>
+  void touch(Search& search, Index triangle) const {
+    if (triangle != search.skip) search.touch(part(triangle), triangle);
+  }
   /// The triangle below a point, or none.
   Index triangle_at(Point p) const;
   /// Precondition: the triangle is there.
@@ -68,12 +75,12 @@ class GridPyramid {
   static bool is_small(const Reach& reach);
   /// Bounds of the blocks of a node, row by row; returns which are worth a look, as bits.
   template <class Query>
-  unsigned bound_children(const Query& query, const Reach& reach, std::size_t level, std::size_t column, std::size_t row,
-                          float* bounds) const;
-  template <std::size_t capacity>
+  unsigned bound_children(const Query& query, const Reach& reach, std::size_t level, std::size_t column,
+                          std::size_t row, float* bounds) const;
+  template <class Search, std::size_t capacity>
   void add_children(const Search& search, const Reach& reach, std::size_t level, std::size_t column, std::size_t row,
                     Candidates<capacity>& found) const;
-  template <std::size_t capacity>
+  template <class Search, std::size_t capacity>
   void visit(Search& search, const Reach& reach, std::size_t level, const Candidates<capacity>& found) const;
   void list_node(const Survey& survey, const Reach& reach, std::size_t level, std::size_t column, std::size_t row,
                  Shortlist& shortlist) const;
@@ -87,6 +94,7 @@ class GridPyramid {
   template <class Query, class Each>
   void for_each_triangle(const Query& query, std::size_t column, std::size_t first_row, std::size_t last_row,
                          const Each& each) const;
+  template <class Search>
   void visit_cells(Search& search, std::size_t column, std::size_t first_row, std::size_t last_row) const;
   void list_cells(const Survey& survey, std::size_t column, std::size_t first_row, std::size_t last_row,
                   Shortlist& shortlist) const;

@@ -27,48 +27,58 @@ class DropCutter::Hierarchy {
     return grid_ ? work(*grid_) : work(*mesh_);
   }
 
-  /// Where the ball was, what it touched, and by which triangle of the hierarchy.
+  /// Where the tool was, what it touched, and by which triangle of the hierarchy.
   struct Trace {
     Point place;
     Contact contact;
     Index triangle = Terrain::none;
   };
-  /// A triangle that the ball may well touch at a place near the trace's, or none.
+  /// A triangle that the tool may well touch at a place near the trace's, or none.
   Index guess(const drop::GridPyramid& grid, const Trace& trace, Point place) const {
     if (trace.triangle == Terrain::none) return grid.triangle_at(place);
     if (terrain_.feature_kind(trace.contact.feature) != Terrain::FeatureKind::face) return trace.triangle;
-    // The touched point of a plane moves along with the ball.
+    // The touched point of a plane moves along with the tool.
     const Point3 p = trace.contact.point;
     return grid.triangle_at({p.x + place.x - trace.place.x, p.y + place.y - trace.place.y});
   }
   Index guess(const drop::MeshTree&, const Trace& trace, Point) const { return trace.triangle; }
 
   /// Begins a search with the guess. After a jump of more than R what was touched says nothing.
-  template <class Tree>
-  drop::Search begin(const Tree& tree, Point place, double radius, const Trace& trace) const {
-    drop::Search search = tree.search(place, radius);
-    const double x = place.x - trace.place.x, y = place.y - trace.place.y;
-    const Index first = guess(tree, x * x + y * y < search.ball.squared ? trace : Trace{}, place);
+  template <class Tree, class Tool>
+  drop::ToolSearch<Tool> begin(const Tree& tree, const Tool& tool, const Trace& trace) const {
+    drop::ToolSearch<Tool> search = tree.search(tool);
+    const double x = tool.place.x - trace.place.x, y = tool.place.y - trace.place.y;
+    const Index first = guess(tree, x * x + y * y < tool.squared ? trace : Trace{}, tool.place);
     if (first != Terrain::none) {
       tree.touch(search, first);
       search.skip = first;
     }
     return search;
   }
+  template <class Tool>
+  static Tool over(Point place, Tool tool) {
+    tool.place = place;
+    return tool;
+  }
   /// Ends a search: the contact, and the trace for the next place.
-  template <class Tree>
-  Contact end(const Tree& tree, const drop::Search& search, Trace& trace) const {
+  template <class Tree, class Search>
+  Contact end(const Tree& tree, const Search& search, Trace& trace) const {
     Contact contact;
     if (search.feature() != Terrain::none) contact = drop::settle(search, tree.part(search.part()), scale_.extent);
-    trace = {search.ball.place, contact, search.part()};
+    trace = {search.tool.place, contact, search.part()};
     return contact;
   }
-  template <class Tree>
-  Contact touch(const Tree& tree, Point place, double radius, Trace& trace) const {
-    if (!std::isfinite(place.x) || !std::isfinite(place.y)) return {};
-    drop::Search search = begin(tree, place, radius, trace);
+  template <class Tree, class Tool>
+  Contact touch(const Tree& tree, const Tool& tool, Trace& trace) const {
+    if (!std::isfinite(tool.place.x) || !std::isfinite(tool.place.y)) return {};
+    auto search = begin(tree, tool, trace);
     tree.run(search);
     return end(tree, search, trace);
+  }
+  /// A ball, whatever the cutter is.
+  template <class Tree>
+  Contact touch(const Tree& tree, Point place, double radius, Trace& trace) const {
+    return touch(tree, drop::ball_over(place, radius), trace);
   }
 
  private:
@@ -77,5 +87,13 @@ class DropCutter::Hierarchy {
   std::optional<drop::GridPyramid> grid_;
   std::optional<drop::MeshTree> mesh_;
 };
+
+template <class Work>
+auto DropCutter::with_tools(const Work& work) const {
+  return hierarchy_->with_tree([&](const auto& tree) {
+    if (cutter_.kind() == Cutter::Kind::ball) return work(tree, drop::ball_over({}, cutter_.radius()));
+    return work(tree, drop::ProfileTool(cutter_));
+  });
+}
 
 }  // namespace krepl

@@ -151,7 +151,7 @@ Moved MeshTree::moved(Point place, double radius) const {
 /// Bounds of the eight children of a node; returns which are worth a look, as bits.
 template <class Query>
 unsigned MeshTree::bound_children(const Query& query, const Node& node, float* bounds) const {
-  const Float4 x = float(query.ball.place.x * scale_.inverse_unit), y = float(query.ball.place.y * scale_.inverse_unit);
+  const Float4 x = float(query.tool.place.x * scale_.inverse_unit), y = float(query.tool.place.y * scale_.inverse_unit);
   unsigned worth = 0;
   for (std::size_t k = 0; k < arity; k += 4) {
     const auto load = [&](const float* f) { return Float4::load(f + k); };
@@ -170,13 +170,14 @@ FourTriangles MeshTree::triangles(Point place, const Leaf& leaf, std::size_t k) 
           load(leaf.y[0]) + y, load(leaf.x[1]) + x, load(leaf.y[1]) + y, load(leaf.x[2]) + x, load(leaf.y[2]) + y};
 }
 
+template <class Search>
 void MeshTree::visit(Search& search, std::size_t level, std::size_t index) const {
   float bounds[arity];
   unsigned worth = 0;
   if (level > 0) worth = bound_children(search, levels_[level - 1][index], bounds);
   else
     for (unsigned k = 0; k < arity; k += 4)
-      worth |= search.worth(triangles(search.ball.place, leaves_[index], k), bounds + k) << k;
+      worth |= search.worth(triangles(search.tool.place, leaves_[index], k), bounds + k) << k;
   Candidates<arity> found;
   for (; worth != 0; worth &= worth - 1) {
     const unsigned child = unsigned(__builtin_ctz(worth));
@@ -189,6 +190,9 @@ void MeshTree::visit(Search& search, std::size_t level, std::size_t index) const
   }
 }
 
+template void MeshTree::visit(Search&, std::size_t, std::size_t) const;
+template void MeshTree::visit(ProfileSearch&, std::size_t, std::size_t) const;
+
 void MeshTree::list(const Survey& survey, Shortlist& shortlist) const {
   list_node(survey, levels_.size(), 0, shortlist);
   shortlist.close();
@@ -198,7 +202,7 @@ void MeshTree::list_node(const Survey& survey, std::size_t level, std::size_t in
   float bounds[arity];
   if (level == 0) {
     for (unsigned k = 0; k < arity; k += 4) {
-      const FourTriangles four = triangles(survey.ball.place, leaves_[index], k);
+      const FourTriangles four = triangles(survey.tool.place, leaves_[index], k);
       const unsigned worth = survey.worth(four, bounds);
       shortlist.add(four, worth, bounds, [&](unsigned lane) { return Index(index * arity + k + lane); });
     }

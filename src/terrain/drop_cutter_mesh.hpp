@@ -16,18 +16,25 @@ class MeshTree {
  public:
   MeshTree(const Terrain& terrain, const Scale& scale, const Context& context);
 
-  Search search(Point place, double radius) const { return {scale_, place, radius, moved(place, radius)}; }
+  template <class Tool>
+  ToolSearch<Tool> search(const Tool& tool) const {
+    return {scale_, tool, moved(tool.place, tool.radius)};
+  }
   Survey survey(Point centre, double radius, const ManyPlaces& spread) const {
-    return {scale_, centre, radius, moved(centre, radius), spread};
+    return {scale_, ball_over(centre, radius), moved(centre, radius), spread};
   }
   double inverse_unit() const { return scale_.inverse_unit; }
   double cell() const { return cell_; }
 
-  /// Looks at all triangles that may be touched.
-  void run(Search& search) const { visit(search, levels_.size(), 0); }
+  /// Looks at all triangles that may be touched. Searches are those of balls and of other cutters.
+  template <class Search>
+  void run(Search& search) const {
+    visit(search, levels_.size(), 0);
+  }
   /// Lists all triangles that may be touched over some place of the survey.
   void list(const Survey& survey, Shortlist& shortlist) const;
   /// Looks at one triangle.
+  template <class Search>
   void touch(Search& search, Index triangle) const {
     if (triangle != search.skip) search.touch(part(triangle), triangle);
   }
@@ -56,6 +63,7 @@ class MeshTree {
   unsigned bound_children(const Query& query, const Node& node, float* bounds) const;
   FourTriangles triangles(Point place, const Leaf& leaf, std::size_t first) const;
   // Level 0 is that of the leaves, level k of levels_[k - 1].
+  template <class Search>
   void visit(Search& search, std::size_t level, std::size_t index) const;
   void list_node(const Survey& survey, std::size_t level, std::size_t index, Shortlist& shortlist) const;
 

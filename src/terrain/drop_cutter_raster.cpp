@@ -2,14 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "kernel/parallel.hpp"
 #include "terrain/drop_cutter_hierarchy.hpp"
 
 namespace krepl {
 namespace {
-
-using drop::Search;
 
 constexpr std::size_t tile_side = 32;  // places; the work of one block
 constexpr std::size_t most_side = 8;   // places that share a walk
@@ -30,12 +29,13 @@ std::size_t together(double step, double radius, double cell, bool is_grid) {
 
 }  // namespace
 
-/// The work on one tile of a raster.
-template <class Tree>
+/// The work on one tile of a raster. Only balls share walks.
+template <class Tree, class Tool>
 class DropCutter::TileWork {
  public:
-  TileWork(const Hierarchy& hierarchy, const Tree& tree, const Raster& raster, double radius, std::span<Contact> contacts)
-      : h_(hierarchy), tree_(tree), raster_(raster), radius_(radius), contacts_(contacts) {}
+  TileWork(const Hierarchy& hierarchy, const Tree& tree, const Tool& tool, const Raster& raster,
+           std::span<Contact> contacts)
+      : h_(hierarchy), tree_(tree), tool_(tool), raster_(raster), radius_(tool.radius), contacts_(contacts) {}
 
   /// Patches in a serpentine, so that each is next to the one before.
   void run(const Patch& tile, std::size_t side_x, std::size_t side_y) {
@@ -48,6 +48,7 @@ class DropCutter::TileWork {
   }
 
  private:
+  static constexpr bool is_ball = std::is_same_v<Tool, drop::Ball>;
   template <class Visit>
   void for_each(const Patch& patch, const Visit& visit) const {
     for (std::size_t k = 0; k < patch.columns * patch.rows; ++k) {
@@ -59,7 +60,8 @@ class DropCutter::TileWork {
 
   /// Together, or else in parts.
   void run(const Patch& patch) {
-    if (patch.columns * patch.rows < least_together || trace_.triangle == Terrain::none) return run_one_by_one(patch);
+    if (!is_ball || patch.columns * patch.rows < least_together || trace_.triangle == Terrain::none)
+      return run_one_by_one(patch);
     if (run_together(patch)) return;
     Patch first = patch, second = patch;
     if (patch.columns > patch.rows) {
@@ -72,11 +74,16 @@ class DropCutter::TileWork {
   }
 
   void run_one_by_one(const Patch& patch) {
-    for_each(patch, [&](Point place, Contact& contact) { contact = h_.touch(tree_, place, radius_, trace_); });
+    for_each(patch,
+             [&](Point place, Contact& contact) { contact = h_.touch(tree_, Hierarchy::over(place, tool_), trace_); });
   }
 
   /// False if the list would become long.
   bool run_together(const Patch& patch) {
+    if constexpr (is_ball) return run_list(patch);
+    return false;
+  }
+  bool run_list(const Patch& patch) {
     const Point a = raster_.place(patch.column, patch.row);
     const Point b = raster_.place(patch.column + patch.columns - 1, patch.row + patch.rows - 1);
     const Point centre{a.x / 2 + b.x / 2, a.y / 2 + b.y / 2};
@@ -89,7 +96,7 @@ class DropCutter::TileWork {
     if (!survey(centre, half_x, half_y, slope, list)) return false;
     const double unit = tree_.inverse_unit();
     for_each(patch, [&](Point place, Contact& contact) {
-      Search search = h_.begin(tree_, place, radius_, trace_);
+      drop::Search search = h_.begin(tree_, Hierarchy::over(place, tool_), trace_);
       const double dx = (place.x - centre.x) * unit, dy = (place.y - centre.y) * unit;
       list.run(tree_, search, float(dx), float(dy), float(slope.x * dx + slope.y * dy));
       contact = h_.end(tree_, search, trace_);
@@ -101,7 +108,7 @@ class DropCutter::TileWork {
   /// balls that touch this point, which form a sphere, a concave surface, so it lies above the least of its corners even after
   /// its tangent plane at the centre is taken off.
   bool survey(Point centre, double half_x, double half_y, Point& slope, drop::Shortlist& list) const {
-    const Search first = h_.begin(tree_, centre, radius_, trace_);
+    const drop::Search first = h_.begin(tree_, drop::ball_over(centre, radius_), trace_);
     if (first.feature() == Terrain::none) return false;
     Hierarchy::Trace ignored;
     const Point3 p = h_.end(tree_, first, ignored).point;
@@ -124,6 +131,7 @@ class DropCutter::TileWork {
 
   const Hierarchy& h_;
   const Tree& tree_;
+  const Tool& tool_;
   const Raster& raster_;
   double radius_;
   std::span<Contact> contacts_;
@@ -137,15 +145,16 @@ Status DropCutter::at(const Raster& raster, std::span<Contact> contacts, const C
   }
   const double cell = hierarchy_->cell();
   const bool is_grid = terrain_->is_grid();
-  const std::size_t side_x = together(raster.step_x, radius_, cell, is_grid);
-  const std::size_t side_y = together(raster.step_y, radius_, cell, is_grid);
-  const std::size_t across = (raster.columns + tile_side - 1) / tile_side, up = (raster.rows + tile_side - 1) / tile_side;
+  const std::size_t side_x = together(raster.step_x, radius(), cell, is_grid);
+  const std::size_t side_y = together(raster.step_y, radius(), cell, is_grid);
+  const std::size_t across = (raster.columns + tile_side - 1) / tile_side,
+                    up = (raster.rows + tile_side - 1) / tile_side;
   kernel::Progress progress(context, contacts.size());
   const bool done = kernel::parallel_blocks(context, across * up, 1, [&](std::size_t k, std::size_t) {
     const std::size_t column = k % across * tile_side, row = k / across * tile_side;
     const Patch tile{column, row, std::min(tile_side, raster.columns - column), std::min(tile_side, raster.rows - row)};
-    hierarchy_->with_tree([&]<class Tree>(const Tree& tree) {
-      TileWork<Tree>(*hierarchy_, tree, raster, radius_, contacts).run(tile, side_x, side_y);
+    with_tools([&]<class Tree, class Tool>(const Tree& tree, const Tool& tool) {
+      TileWork<Tree, Tool>(*hierarchy_, tree, tool, raster, contacts).run(tile, side_x, side_y);
     });
     progress.add(tile.columns * tile.rows);
   });

@@ -7,6 +7,8 @@
 
 #include "krepl/terrain.hpp"
 #include "terrain/drop_cutter_bound.hpp"
+#include "terrain/drop_cutter_profile.hpp"
+#include "terrain/drop_cutter_profile_bound.hpp"
 #include "terrain/drop_cutter_touch.hpp"
 
 namespace krepl::drop {
@@ -38,27 +40,31 @@ struct Moved {
   double blocks, triangles;
 };
 
-/// A ball over one place or over all places of a rectangle, and how high it rests at least: parts with bounds below that
-/// are out of the question.
-template <class Spread>
+/// A ball or another tool over one place, or a ball over all places of a rectangle, and how high it rests at least:
+/// parts with bounds below that are out of the question.
+template <class Tool, class Spread>
 class Query {
  public:
-  Query(const Scale& scale, Point place, double radius, const Moved& moved, const Spread& spread_ = {})
-      : ball{place, radius, radius * radius}, bounds(radius * scale.inverse_unit, moved.blocks * scale.inverse_unit),
-        spread(spread_), inverse_unit_(scale.inverse_unit) {
-    // Heights in single precision, a few operations; evaluations in double precision; planes over coordinates that have moved.
-    const double heights = 0x1p-20 * scale.tallest + 0x1p-44 * (radius + scale.extent);
+  Query(const Scale& scale, const Tool& tool_, const Moved& moved, const Spread& spread_ = {})
+      : tool(tool_),
+        bounds(tool_, scale.inverse_unit, moved.blocks * scale.inverse_unit),
+        spread(spread_),
+        inverse_unit_(scale.inverse_unit) {
+    // Heights in single precision, a few operations; evaluations in double precision; planes over coordinates that have
+    // moved.
+    const double heights =
+        0x1p-20 * scale.tallest + 0x1p-44 * (tool.radius + scale.extent) + Tool::Bound::slack_per_radius * tool.radius;
     slack_of_blocks_ = float((heights + slack_per_move * moved.blocks) * inverse_unit_);
     slack_of_triangles_ = float((heights + slack_per_move * moved.triangles) * inverse_unit_);
   }
 
-  const Ball ball;
-  const BallBound bounds;
+  const Tool tool;
+  const typename Tool::Bound bounds;
   const Spread spread;
 
-  /// The ball is known to rest no lower than this.
+  /// The tool is known to rest no lower than this.
   void raise(double height) {
-    const float relative = float((height - ball.radius) * inverse_unit_);
+    const float relative = float(tool.tip(height) * inverse_unit_);
     least_ = std::max(least_, relative - 0x1p-22f * std::abs(relative));
   }
   float threshold_of_blocks() const { return least_ - slack_of_blocks_; }
@@ -82,12 +88,14 @@ class Query {
 
 /// The search for the highest touch over one place.
 ///
-/// Heights of equal value in double precision go to the feature of lowest dimension, then of lowest number, and parts are
-/// left out only if their bounds fall short of the best height by more than rounding. So the result is a function of the
-/// place, not of the order in which parts are visited.
-class Search : public Query<OnePlace> {
+/// Heights of equal value in double precision go to the feature of lowest dimension, then of lowest number, and parts
+/// are left out only if their bounds fall short of the best height by more than rounding. So the result is a function
+/// of the place, not of the order in which parts are visited.
+template <class Tool>
+class ToolSearch : public Query<Tool, OnePlace> {
  public:
-  using Query::Query;
+  using Query<Tool, OnePlace>::Query;
+  using Query<Tool, OnePlace>::tool;
 
   double height() const { return best_; }
   Index feature() const { return feature_; }
@@ -104,7 +112,7 @@ class Search : public Query<OnePlace> {
   void offer(double height, Index feature, Terrain::FeatureKind kind, Index part) {
     if (!(height >= best_) || height == nothing) return;
     if (height == best_ && (kind != kind_ ? kind > kind_ : feature >= feature_)) return;
-    if (height > best_) best_ = height, raise(height);
+    if (height > best_) best_ = height, this->raise(height);
     feature_ = feature, kind_ = kind, part_ = part;
   }
 
@@ -115,28 +123,33 @@ class Search : public Query<OnePlace> {
 static_assert(Terrain::FeatureKind::vertex < Terrain::FeatureKind::edge &&
               Terrain::FeatureKind::edge < Terrain::FeatureKind::face);
 
-inline void Search::touch(const Part& p, Index number) {
+template <class Tool>
+void ToolSearch<Tool>::touch(const Part& p, Index number) {
   using Kind = Terrain::FeatureKind;
   FaceTouch face;  // of a vertical triangle: all sides are worth a look
-  if (!p.vertical) face = touch_face(p.corner[0], p.corner[1], p.corner[2], ball);
-  if (face.beyond == 0) return offer(face.height, p.face, Kind::face, number);
+  if (!p.vertical) face = touch_face(p.corner[0], p.corner[1], p.corner[2], tool);
+  offer(face.height, p.face, Kind::face, number);
+  if (face.beyond == 0) return;
   unsigned corners = 0;
   for (unsigned i = 0; i < 3; ++i) {
     if ((face.beyond & (1u << i)) == 0) continue;
     // From the lower number to the higher, as Terrain::corners() has it.
     const unsigned next = i == 2 ? 0 : i + 1;
     const unsigned a = p.vertex[i] < p.vertex[next] ? i : next, b = a ^ i ^ next;
-    const EdgeTouch edge = touch_edge(p.corner[a], p.corner[b], ball);
+    const EdgeTouch edge = touch_edge(p.corner[a], p.corner[b], tool);
     offer(edge.height, p.edge[i], Kind::edge, number);
     if (edge.ends & 1) corners |= 1u << a;
     if (edge.ends & 2) corners |= 1u << b;
   }
   for (unsigned i = 0; i < 3; ++i)
-    if (corners & (1u << i)) offer(touch_vertex(p.corner[i], ball).height, p.vertex[i], Kind::vertex, number);
+    if (corners & (1u << i)) offer(touch_vertex(p.corner[i], tool).height, p.vertex[i], Kind::vertex, number);
 }
 
+using Search = ToolSearch<Ball>;
+using ProfileSearch = ToolSearch<ProfileTool>;
+
 /// Places of a rectangle together.
-using Survey = Query<ManyPlaces>;
+using Survey = Query<Ball, ManyPlaces>;
 
 /// Parts that may hold the highest touch, with their bounds; the most promising first.
 template <std::size_t capacity>

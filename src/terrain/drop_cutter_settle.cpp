@@ -22,19 +22,21 @@ unsigned place_of(const std::array<Index, 3>& features, Index feature) {
   return features[0] == feature ? 0 : features[1] == feature ? 1 : 2;
 }
 
+template <class Search>
 void settle_edge(const Search& search, const Part& part, double tolerance, Contact& contact) {
   const unsigned i = place_of(part.edge, contact.feature), next = i == 2 ? 0 : i + 1;
   const unsigned a = part.vertex[i] < part.vertex[next] ? i : next, b = a ^ i ^ next;
-  const double along = touch_edge(part.corner[a], part.corner[b], search.ball).along;
+  const double along = touch_edge(part.corner[a], part.corner[b], search.tool).along;
   contact.point = between(part.corner[a], part.corner[b], along);
   const unsigned nearer = along > 0.5 ? b : a;
   if (distance(contact.point, part.corner[nearer]) > tolerance) return;
   contact.point = part.corner[nearer], contact.feature = part.vertex[nearer];
 }
 
+template <class Search>
 void settle_face(const Search& search, const Part& part, double tolerance, Contact& contact) {
   const auto& p = part.corner;
-  const FaceTouch touch = touch_face(p[0], p[1], p[2], search.ball);
+  const FaceTouch touch = touch_face(p[0], p[1], p[2], search.tool);
   const Point3 d1 = minus(p[1], p[0]), d2 = minus(p[2], p[0]);
   contact.point = {p[0].x + touch.v * d1.x + touch.w * d2.x, p[0].y + touch.v * d1.y + touch.w * d2.y,
                    p[0].z + touch.v * d1.z + touch.w * d2.z};
@@ -58,13 +60,17 @@ void settle_face(const Search& search, const Part& part, double tolerance, Conta
 
 }  // namespace
 
+template <class Search>
 Contact settle(const Search& search, const Part& part, double extent) {
-  const double tolerance = 0x1p-46 * std::max(extent, search.ball.radius);
+  const double tolerance = 0x1p-46 * std::max(extent, search.tool.radius);
   Contact contact{search.height(), {}, search.feature()};
   if (search.kind() == Kind::face) settle_face(search, part, tolerance, contact);
   else if (search.kind() == Kind::edge) settle_edge(search, part, tolerance, contact);
   else contact.point = part.corner[place_of(part.vertex, contact.feature)];
   return contact;
 }
+
+template Contact settle(const Search&, const Part&, double);
+template Contact settle(const ProfileSearch&, const Part&, double);
 
 }  // namespace krepl::drop

@@ -11,6 +11,9 @@ class Shortlist {
   static constexpr std::size_t capacity = 128;
 
   bool overflowed() const { return overflowed_; }
+  std::size_t size() const { return count_; }
+  /// Of the triangle at a place of the list, in the order that they were added in.
+  Index number(std::size_t i) const { return entry_[i].number; }
 
   /// The triangles at the lanes of a mask, with their bounds and numbers.
   template <class Number>

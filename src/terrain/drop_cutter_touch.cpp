@@ -20,8 +20,9 @@ EdgeTouch touch_edge_quad(Point3 a, Point3 b, const Ball& ball) {
   const quad flat = dx * dx + dy * dy;
   if (flat == 0) return {nothing, 0, 3};
   const quad cross = dx * ey - dy * ex, foot = (dx * ex + dy * ey) / flat;
-  const quad s = quad(ball.radius) * ball.radius - cross * cross / flat;
-  if (s < 0) return {};
+  const quad squared = quad(ball.radius) * ball.radius, s = squared - cross * cross / flat;
+  // By rounding, maybe: an end at R exactly is for touch_vertex() to decide.
+  if (s < 0) return {nothing, 0, s < -squared * 0x1p-100 ? 0u : 3u};
   const quad length = flat + dz * dz;
   const quad lift = square_root(s / flat / length);
   const quad along = foot + dz * lift;

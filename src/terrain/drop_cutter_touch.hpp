@@ -8,18 +8,24 @@
 
 namespace krepl::drop {
 
+struct BallBound;
+
 /// A ball on its way down over a place.
 struct Ball {
+  using Bound = BallBound;
   Point place;
   double radius;
   double squared;  // radius
+  /// The height of its lowest point, from that of the point that is spoken of: its centre.
+  double tip(double height) const { return height - radius; }
 };
+inline Ball ball_over(Point place, double radius) { return {place, radius, radius * radius}; }
 
 inline constexpr double nothing = -std::numeric_limits<double>::infinity();
 
-/// The height of the ball's centre when it touches a feature, and the touched point by its parameters on the feature.
-/// Everything is a function of the feature's corners in their order and of the ball alone, so that all searches find the
-/// same bits.
+/// The height of the tool (of a ball its centre) when it touches a feature, and the touched point by its parameters on
+/// the feature. Everything is a function of the feature's corners in their order and of the tool alone, so that all
+/// searches find the same bits.
 ///
 /// Error budget, in units of S = max(R, coordinates), u = 2^-53. A double evaluation is used only where it loses little:
 ///   vertex   d^2 has relative error 2u, so the height 2u R^2 / sqrt(R^2 - d^2) <= 2^7 u R while R^2 - d^2 >= 2^-12 R^2;
@@ -47,6 +53,7 @@ struct FaceTouch {
 namespace budget {
 inline constexpr double rim = 0x1p-12;        // of R^2
 inline constexpr double outside = -0x1p-45;   // of R^2: beyond the rim for certain
+inline constexpr double far_corner = 0x1p60;  // squared distance of an edge's corner in units of R^2
 inline constexpr double steep_edge = 0x1p18;  // slope^2
 inline constexpr double face = 0x1p-18;       // of |n|^2 |d1|^2 |d2|^2 for n.z^4
 }  // namespace budget
@@ -75,7 +82,9 @@ inline EdgeTouch touch_edge(Point3 a, Point3 b, const Ball& ball) {
   const double cross = dx * ey - dy * ex, foot = (dx * ex + dy * ey) * inverse;
   const double s = ball.squared - cross * cross * inverse;
   if (s < budget::rim * ball.squared || dz * dz > budget::steep_edge * flat) [[unlikely]] {
-    return s < budget::outside * ball.squared ? EdgeTouch{} : touch_edge_quad(a, b, ball);
+    // The distance from the line is wrong by 4 u |e| at most.
+    const bool beyond = s < -budget::rim * ball.squared && ex * ex + ey * ey < budget::far_corner * (ball.squared - s);
+    return beyond ? EdgeTouch{} : touch_edge_quad(a, b, ball);
   }
   const double length = flat + dz * dz;
   const double lift = std::sqrt(s * inverse / length);

@@ -174,6 +174,7 @@ class Envelope {
   bool domain_covers(Index patch, const BoxFrame& box) const;
   bool domain_meets(Index patch, const BoxFrame& box) const;
   bool lies_beyond(const Bound& bound, const BoxFrame& box) const;
+  bool lies_beyond_seam(Index sphere, Index edge, const BoxFrame& box, Real least_up) const;
   bool axis_meets(Index edge, const BoxFrame& box) const;
   GradientRange sphere_gradient(Point at, const Box& box, Real factor) const;
 

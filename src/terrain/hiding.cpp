@@ -385,7 +385,7 @@ bool Envelope<Real>::stays_hidden(Index c, const Box& box, std::span<const Index
   if (!domain_meets(c, frame)) return true;
   Cover cover(*this, frame, labels);
   if (cover.hides(c) || (is_fine<Real> && cover.hides_within_ends(c))) return true;
-  if (far_ && hidden_by_balls(c, labels, part)) return true;
+  if ((far_ || is_fine<Real>) && hidden_by_balls(c, labels, part)) return true;
   if (is_fine<Real> && hidden_by_feature(c, labels, frame)) return true;
   if (depth == 0) return false;
   Box first = part, second = part;
@@ -394,6 +394,18 @@ bool Envelope<Real>::stays_hidden(Index c, const Box& box, std::span<const Index
   else
     first.high.y = second.low.y = frame.mid.y;
   return stays_hidden(c, first, labels, depth - 1) && stays_hidden(c, second, labels, depth - 1);
+}
+
+/// True if a sphere's patch lies beyond its seam to an edge, but for what is nearer to the wall than `least_up` above it: there
+/// the seam is tangent to the wall.
+template <class Real>
+bool Envelope<Real>::lies_beyond_seam(Index sphere, Index edge, const BoxFrame& frame, Real least_up) const {
+  if (patches_[sphere].kind != FeatureKind::vertex) return false;
+  for (const Bound& b : patches_.bounds(sphere)) {
+    if (b.partner != edge || b.type != BoundType::cone) continue;
+    if (b.negative ? extreme<1>(b, frame, least_up) >= 0 : extreme<-1>(b, frame, least_up) > 0) return true;
+  }
+  return false;
 }
 
 /// Bodies are concave, and so are weighted means of two of them: least against a plane at the corners of the box. What
@@ -415,7 +427,8 @@ bool Envelope<Real>::hidden_within_tolerance(Index i, std::span<const Index> upp
   const Real rim_up = square_root(patches_.radius() *
                                   rim_width_);  // above the foot of a wall, where both precisions leave out what shows
   for (std::size_t u = 0; u < uppers.size() && count < most && walls < most; ++u) {
-    if (hidden_beside(i, uppers[u], frame, rim_up)) return true;
+    if (hidden_beside(i, uppers[u], frame, rim_up) || (is_fine<Real> && lies_beyond_seam(i, uppers[u], frame, rim_up)))
+      return true;
     bool reaches = true;
     for (int k = 0; k < 4 && reaches; ++k) {
       const Real body = patches_.body_height(uppers[u], corner[k]);

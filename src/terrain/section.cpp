@@ -43,13 +43,15 @@ void Envelope<Real>::drop_slivers(const Line& line, Index start, std::size_t fir
     const Real along = b.t - a.t;
     if (along > 0x1p12 * tolerance_) return false;
     const Gradient slope = a.after == none ? Gradient{0, 0} : patches_.gradient(a.after, line.point((a.t + b.t) / 2));
+    // What lies in a gap may be left out where that is twice the tolerance wide (back_to_back): no gap may show so narrow.
+    const Real narrow = (a.after == none ? 4 : 1) * tolerance_;
     for (const Gradient n : {unit_across(label_before(kept - 1), a), unit_across(a.after, b)}) {
       if (n.x == 0 && n.y == 0) {
-        if (along >= tolerance_) return false;
+        if (along >= narrow) return false;
         continue;
       }
       const Real width = along * absolute(line.vertical ? n.y : n.x), rise = absolute(slope.x * n.x + slope.y * n.y);
-      if (width >= tolerance_ || width * rise >= thickness_) return false;
+      if (width >= narrow || width * rise >= thickness_) return false;
     }
     return true;
   };

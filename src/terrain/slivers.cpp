@@ -126,7 +126,8 @@ std::optional<PointOf<Real>> Cells<Real>::end_of_thin_strip() const {
     const Real dx = to.at.x - from.at.x, dy = to.at.y - from.at.y, apart = norm(dx, dy),
                tolerance = envelope_.tolerance();
     const Real across = absolute(g.x * dx + g.y * dy) / size(g);
-    if (!(across <= 4 * tolerance && apart <= 64 * tolerance)) continue;
+    const Real narrow = (from.after == none ? 16 : 4) * tolerance;  // four times what lines leave out, about
+    if (!(across <= narrow && apart <= 64 * tolerance)) continue;
     // What is steep is thicker on the surface than it is wide in the plane.
     if (from.after != none &&
         !(across * size(envelope_.patches().gradient(from.after, from.at)) <= 4 * envelope_.thickness()))

@@ -16,15 +16,19 @@ Surface::Edge Surface::edge(Index e) const {
   return edge;
 }
 
+std::span<const Point3> Surface::guides(Index e) const {
+  const auto guided = std::lower_bound(guided_edge_.begin(), guided_edge_.end(), e);
+  if (guided == guided_edge_.end() || *guided != e || edge(e).curve == Curve::line) return {};
+  const auto begin = guide_begin_.begin() + (guided - guided_edge_.begin());
+  return {guide_.data() + begin[0], begin[1] - begin[0]};
+}
+
 std::vector<Point3> Surface::curve(Index e, int points) const {
   points = std::max(points, 3);
   const Edge edge = this->edge(e);
   std::vector<Point3> base{vertex_[subdivision_.origin[2 * e]]};
-  const auto guided = std::lower_bound(guided_edge_.begin(), guided_edge_.end(), e);
-  if (guided != guided_edge_.end() && *guided == e && edge.curve != Curve::line) {
-    const auto begin = guide_begin_.begin() + (guided - guided_edge_.begin());
-    base.insert(base.end(), guide_.begin() + begin[0], guide_.begin() + begin[1]);
-  }
+  const std::span<const Point3> between = guides(e);
+  base.insert(base.end(), between.begin(), between.end());
   base.push_back(vertex_[subdivision_.origin[2 * e + 1]]);
   // A vertex on a wall is at its upper end; an edge that meets the wall further down ends there.
   const double scale = std::max(radius_, terrain_->extent());

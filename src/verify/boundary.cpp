@@ -37,15 +37,16 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
   std::uint32_t ring = 0;
   const auto& vertices = obstacle.vertices();
 
-  const auto find_centre = [&](const Vec(&p)[3], Vec& centre) {
+  const auto find_centre = [&](const Vec(&p)[3], Vec& centre, Real& own_radius) {
     Box around;
     around.add(p[1]);
     Real best = HUGE_VALL;
     vertices.for_each_in(around.grown(radius + tolerance), [&](std::uint32_t i) {
       const Vec v = vertices.items()[i].at;
       Real worst = 0;
-      for (const Vec& q : p) worst = std::max(worst, std::abs(distance(q, v) - radius));
-      if (worst < best) best = worst, centre = v;
+      const Real r = radius - vertices.items()[i].inset;
+      for (const Vec& q : p) worst = std::max(worst, std::abs(distance(q, v) - r));
+      if (worst < best) best = worst, centre = v, own_radius = r;
     });
     return best;
   };
@@ -60,9 +61,10 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
       const bool round =
           piece.start == piece.end ? (circle = 0.5L * (p[0] + p[1]), true) : circle_through(p[0], p[1], p[2], circle);
       Vec centre;
-      const Real off = find_centre(p, centre);
+      Real own_radius = radius;
+      const Real off = find_centre(p, centre, own_radius);
       if (off <= tolerance) {
-        curve.c = centre, curve.r = radius, curve.arc = true;
+        curve.c = centre, curve.r = own_radius, curve.arc = true;
       } else {
         ++fit.without_centre;
         curve.c = circle, curve.r = distance(circle, p[0]), curve.arc = round;

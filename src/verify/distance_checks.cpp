@@ -88,10 +88,10 @@ Check check_membership(const ZoneCase& zone) {
 Check check_coverage(const ZoneCase& zone) {
   const auto& segments = zone.obstacle.segments().items();
   const std::size_t each = per_item(segments.size(), 5e5, 1, 64, zone.effort);
-  const Real r = zone.radius, step = 2 * zone.deviation;
-  const auto probe = [&](Vec foot, Vec outward, Tally& t) {
+  const Real step = 2 * zone.deviation;
+  const auto probe = [&](Vec foot, Vec outward, Real r, Tally& t) {
     const Vec p = foot + (r + step) * outward;
-    if (zone.obstacle.distance(p) < r + step / 2) return;
+    if (zone.obstacle.distance(p) < zone.radius + step / 2) return;
     if (zone.obstacle.has_polygons() && zone.obstacle.in_polygon(p)) return;
     const Real off = zone.boundary.curves().nearest(p).distance;
     t.add(std::max(Real(0), off - step), zone.deviation, p);
@@ -99,15 +99,15 @@ Check check_coverage(const ZoneCase& zone) {
   const Tally tally = tally_all(zone.context, segments.size(), [&](std::size_t i, Tally& t) {
     Random random(zone.seed + 1, i);
     const Vec a = segments[i].a, b = segments[i].b;
-    const Real l = distance(a, b);
+    const Real l = distance(a, b), r = zone.radius - segments[i].inset;
     for (std::size_t k = 0; k < each; ++k) {
       if (l > 0) {
         const Vec n = (1 / l) * left_of(b - a);
         const Vec foot = a + random.unit() * (b - a);
-        probe(foot, n, t), probe(foot, Real(-1) * n, t);
+        probe(foot, n, r, t), probe(foot, Real(-1) * n, r, t);
       }
       const Real angle = 2 * pi * random.unit();
-      probe(k % 2 == 0 ? a : b, Vec(std::cos(angle), std::sin(angle)), t);
+      probe(k % 2 == 0 ? a : b, Vec(std::cos(angle), std::sin(angle)), r, t);
     }
   });
   return tally.check("input's sides on the boundary", zone.deviation);

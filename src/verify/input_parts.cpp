@@ -1,5 +1,6 @@
 #include "verify/input_parts.hpp"
 
+#include "input/feature_reader.hpp"
 #include "input/geometry_source.hpp"
 #include "input/parts.hpp"
 #include "input/projection.hpp"
@@ -9,8 +10,9 @@ namespace krepl::verify {
 
 namespace {
 
-Result<input::Parts> read_all(input::GeometrySource& source, const Context& context) {
+Result<input::Parts> read_all(input::GeometrySource& source, double arc_error, const Context& context) {
   input::Parts parts;
+  parts.arc_error = arc_error;
   for (;;) {
     if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while reading", "", ""};
     auto item = source.next();
@@ -30,16 +32,30 @@ std::vector<InputPart> plain(const input::Parts& parts) {
     out.push_back({{parts.points.begin() + std::ptrdiff_t(parts.begin[i]),
                     parts.points.begin() + std::ptrdiff_t(parts.begin[i + 1])},
                    parts.kind[i] == input::Parts::Kind::ring,
-                   parts.feature[i]});
+                   parts.feature[i],
+                   0});
   return out;
+}
+
+Result<std::vector<InputPart>> read_parts_with_radii(const InputRequest& request, const Context& context) {
+  const input::NetworkRequest network{request.path, request.layer, request.where, request.crs, request.to_crs};
+  auto features = input::read_features({network, request.radius_field, request.radius_expression, ""}, context);
+  if (!features) return features.error();
+  std::vector<InputPart> parts = plain(features->parts);
+  for (std::size_t f = 0; f < features->size(); ++f) {
+    for (std::size_t i = features->part_begin[f]; i < features->part_begin[f + 1]; ++i)
+      parts[i].radius = features->radius[f];
+  }
+  return parts;
 }
 
 }  // namespace
 
 Result<std::vector<InputPart>> read_parts(const InputRequest& request, const Context& context) {
+  if (!request.radius_field.empty() || !request.radius_expression.empty()) return read_parts_with_radii(request, context);
   auto source = input::open_geometry_source(request.path, {request.layer, request.where}, context);
   if (!source) return source.error();
-  auto parts = read_all(**source, context);
+  auto parts = read_all(**source, request.arc_error, context);
   if (!parts) return parts.error();
   if (parts->size() == 0)
     return Error{ErrorCode::input, "has no geometry to check against", "", "give the input of the result"};

@@ -12,6 +12,8 @@ namespace krepl::verify {
 /// Which input to take and how to project it; the same meaning as for `krepl buffer`.
 struct InputRequest {
   std::string path, layer, where, crs, to_crs;
+  double arc_error = 0;
+  std::string radius_field = {}, radius_expression = {};  ///< a radius of its own for each part
 };
 
 /// Lines, rings and points as they are in the file, after projection. Stops before Network, whose welding and shift of

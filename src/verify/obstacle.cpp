@@ -5,27 +5,35 @@
 
 namespace krepl::verify {
 
-std::vector<Obstacle::Segment> Obstacle::cut(const std::vector<InputPart>& parts) {
+namespace {
+
+Real inset_of(const InputPart& part, double radius) { return part.radius > 0 ? Real(radius) - Real(part.radius) : 0; }
+
+}  // namespace
+
+std::vector<Obstacle::Segment> Obstacle::cut(const std::vector<InputPart>& parts, double radius) {
   std::vector<Segment> segments;
   for (const InputPart& part : parts) {
     const auto& v = part.vertices;
-    if (v.size() == 1) segments.push_back({v[0], v[0]});
-    for (std::size_t i = 0; i + 1 < v.size(); ++i) segments.push_back({v[i], v[i + 1]});
-    if (part.ring && v.size() > 1 && !(v.front() == v.back())) segments.push_back({v.back(), v.front()});
+    const Real inset = inset_of(part, radius);
+    if (v.size() == 1) segments.push_back({v[0], v[0], inset});
+    for (std::size_t i = 0; i + 1 < v.size(); ++i) segments.push_back({v[i], v[i + 1], inset});
+    if (part.ring && v.size() > 1 && !(v.front() == v.back())) segments.push_back({v.back(), v.front(), inset});
   }
   return segments;
 }
 
-std::vector<Obstacle::Vertex> Obstacle::corners(const std::vector<InputPart>& parts) {
+std::vector<Obstacle::Vertex> Obstacle::corners(const std::vector<InputPart>& parts, double radius) {
   std::vector<Vertex> corners;
   for (const InputPart& part : parts)
-    for (const Point& p : part.vertices) corners.push_back({p});
+    for (const Point& p : part.vertices) corners.push_back({p, inset_of(part, radius)});
   return corners;
 }
 
-Obstacle::Obstacle(const std::vector<InputPart>& parts) : segments_(cut(parts)), vertices_(corners(parts)) {
+Obstacle::Obstacle(const std::vector<InputPart>& parts, double radius)
+    : segments_(cut(parts, radius)), vertices_(corners(parts, radius)) {
   for (const Segment& q : segments_.items()) {
-    Axis axis{ray_frame(q.a), ray_frame(q.b)};
+    Axis axis{ray_frame(q.a), ray_frame(q.b), q.inset};
     if (axis.high.y < axis.low.y) std::swap(axis.low, axis.high);
     tallest_ = std::max(tallest_, axis.high.y - axis.low.y);
     axes_.push_back(axis);
@@ -37,7 +45,7 @@ Obstacle::Obstacle(const std::vector<InputPart>& parts) : segments_(cut(parts)),
   for (const InputPart& part : parts) {
     if (!part.ring) continue;
     const auto polygon = polygon_of.emplace(part.feature, std::uint32_t(polygon_of.size())).first->second;
-    for (const Segment& q : cut({part})) {
+    for (const Segment& q : cut({part}, radius)) {
       sides_.push_back({ray_frame(q.a), ray_frame(q.b), polygon});
       ranges.push_back(std::minmax(sides_.back().a.y, sides_.back().b.y));
     }
@@ -64,7 +72,8 @@ std::pair<Real, Real> Obstacle::heights() const {
 
 void Obstacle::add_ends(Real r, std::vector<Real>& out) const {
   for (const Axis& axis : axes_)
-    for (const Real y : {axis.low.y, axis.high.y}) out.insert(out.end(), {y - r, y + r});
+    for (const Real y : {axis.low.y, axis.high.y})
+      out.insert(out.end(), {y - (r - axis.inset), y + (r - axis.inset)});
 }
 
 bool Obstacle::in_polygon(Vec place) const {
@@ -87,10 +96,11 @@ bool Obstacle::in_polygon(Vec place) const {
   return false;
 }
 
-void Obstacle::add_cigars(Real y, Real r, std::vector<Interval>& out) const {
+void Obstacle::add_cigars(Real y, Real widest, std::vector<Interval>& out) const {
   auto it =
-      std::partition_point(axes_.begin(), axes_.end(), [&](const Axis& axis) { return axis.low.y < y - r - tallest_; });
-  for (; it != axes_.end() && it->low.y <= y + r; ++it) {
+      std::partition_point(axes_.begin(), axes_.end(), [&](const Axis& axis) { return axis.low.y < y - widest - tallest_; });
+  for (; it != axes_.end() && it->low.y <= y + widest; ++it) {
+    const Real r = widest - it->inset;
     const Vec a = it->low, b = it->high;
     Real x0 = HUGE_VALL, x1 = -HUGE_VALL;
     for (const Vec& c : {a, b}) {

@@ -14,31 +14,38 @@ struct InputPart {
   std::vector<Point> vertices;
   bool ring = false;
   std::int64_t feature = -1;  ///< rings of one feature count by the even-odd rule
+  double radius = 0;          ///< of its own; 0: the one of the zone
 };
 
 /// The input of a zone: segments and points as they were read, nothing welded, cut or dropped.
+///
+/// Parts may have radii of their own. Then the zone's radius R is the largest of them, and all distances to a part count
+/// as larger by its *inset*, R less its own radius: so the boundary is at distance R of the input, whatever the radii.
 class Obstacle {
  public:
   struct Segment {
     Point a, b;  ///< equal: a point
+    Real inset = 0;
     Box box() const {
       Box r;
       r.add(a), r.add(b);
       return r;
     }
-    Real distance(Vec p) const { return distance_to_segment(p, a, b); }
+    Real distance(Vec p) const { return distance_to_segment(p, a, b) + inset; }
   };
   struct Vertex {
     Point at;
+    Real inset = 0;
     Box box() const {
       Box r;
       r.add(at);
       return r;
     }
-    Real distance(Vec p) const { return verify::distance(p, at); }
+    Real distance(Vec p) const { return verify::distance(p, at) + inset; }
   };
 
-  explicit Obstacle(const std::vector<InputPart>& parts);
+  /// `radius`: of the zone, where parts have radii of their own.
+  explicit Obstacle(const std::vector<InputPart>& parts, double radius = 0);
 
   const NearestTree<Segment>& segments() const { return segments_; }
   const NearestTree<Vertex>& vertices() const { return vertices_; }
@@ -48,7 +55,7 @@ class Obstacle {
   /// Distance between neighbouring doubles at the largest absolute coordinate.
   Real resolution() const;
 
-  /// Distance to the lines, points and rings; the inside of polygons does not count.
+  /// Distance to the lines, points and rings (more their insets); the inside of polygons does not count.
   Real distance(Vec p) const { return segments_.nearest(p).distance; }
   /// True if p is inside some polygon by the even-odd rule of its feature.
   bool in_polygon(Vec p) const;
@@ -70,13 +77,14 @@ class Obstacle {
   void add_cigars(Real y, Real r, std::vector<Interval>& out) const;
   void add_polygons(Real y, std::vector<Interval>& out) const;
 
-  static std::vector<Segment> cut(const std::vector<InputPart>& parts);
-  static std::vector<Vertex> corners(const std::vector<InputPart>& parts);
+  static std::vector<Segment> cut(const std::vector<InputPart>& parts, double radius);
+  static std::vector<Vertex> corners(const std::vector<InputPart>& parts, double radius);
 
   NearestTree<Segment> segments_;
   NearestTree<Vertex> vertices_;
   struct Axis {
     Vec low, high;
+    Real inset;
   };
   std::vector<Axis> axes_;  // the segments in the ray frame, by lower end
   Real tallest_ = 0;

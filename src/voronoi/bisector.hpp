@@ -15,6 +15,11 @@ class Bisector {
 
   /// Points from start to end, at most max_clearance from the sites; chords deviate by max_error at most.
   std::vector<Point> points(double max_error, double max_clearance) const;
+  /// The largest distance from the curve of so many chords of equal width over all of it.
+  double chord_error(std::size_t chords) const {
+    const double width = (end_ - start_) / double(chords);
+    return parabola_ ? width * width / (8 * height_) : 0;
+  }
 
  private:
   Point at(double x) const;

@@ -6,12 +6,12 @@
 namespace krepl::voronoi {
 namespace {
 
-class Tracer {
+/// Links over which the boundary comes into their face.
+class Entrances {
  public:
-  Tracer(const Diagram& d, const Instance& in) : d_(d), in_(in), radius_(in.radius()) {}
+  Entrances(const Diagram& d, const Instance& in) : d_(d), in_(in), radius_(in.radius()) {}
 
-  /// Links over which the boundary comes into their face, in order of faces.
-  void find_entries(const Context& context) {
+  std::vector<Entry> find(const Context& context) const {
     constexpr std::size_t block = 1 << 14;
     std::vector<std::vector<Entry>> parts((d_.face_count() + block - 1) / block);
     Context quiet;
@@ -19,50 +19,12 @@ class Tracer {
     kernel::parallel_blocks(quiet, d_.face_count(), block, [&](std::size_t from, std::size_t to) {
       for (Index f = Index(from); f < to; ++f) find_entries(f, parts[from / block]);
     });
-    for (const auto& part : parts) entries_.insert(entries_.end(), part.begin(), part.end());
-  }
-
-  Result<zone::Rings> rings(const Context& context) {
-    if (!is_sound())
-      return Error{ErrorCode::computation, "the Voronoi diagram is not sound at this radius", "",
-                   "please report this input"};
-    zone::Rings rings;
-    std::vector<char> done(entries_.size(), 0);
-    std::vector<Index> from;  // per piece: the face it comes from
-    for (std::size_t i = 0; i < entries_.size(); ++i) {
-      for (std::size_t k = i; !done[k]; k = following(k)) {
-        done[k] = 1;
-        rings.element.push_back(entries_[k].face);
-        from.push_back(entries_[k].link == none ? entries_[k].face : d_.label[entries_[k].link]);
-        if (entries_[k].link == none) break;
-      }
-      if (rings.element.size() > rings.begin.back()) rings.begin.push_back(Index(rings.element.size()));
-    }
-    rings.vertex.resize(from.size());
-    Context quiet;
-    quiet.threads = context.threads;
-    kernel::parallel_blocks(quiet, from.size(), 1 << 12, [&](std::size_t first, std::size_t last) {
-      for (std::size_t e = first; e < last; ++e) rings.vertex[e] = zone::crossing(in_, from[e], rings.element[e]);
-    });
-    return rings;
+    std::vector<Entry> entries;
+    for (const auto& part : parts) entries.insert(entries.end(), part.begin(), part.end());
+    return entries;
   }
 
  private:
-  struct Entry {
-    Index face, link, exit;  // link none: a full circle
-  };
-
-  /// Every piece enters and leaves by a link that has a face behind it, where another piece continues.
-  bool is_sound() const {
-    for (std::size_t k = 0; k < entries_.size(); ++k) {
-      const Entry& e = entries_[k];
-      if (e.link == none) continue;
-      if (e.exit == none || d_.twin[e.link] == none || d_.twin[e.exit] == none || following(k) == entries_.size())
-        return false;
-    }
-    return true;
-  }
-
   double end_clearance(Index i) const { return d_.clearance[d_.vertex[i]]; }
   bool is_closed(Index f) const { return !in_.is_side(f) && in_.sector(in_.vertex_of(f)).before == f; }
 
@@ -103,6 +65,53 @@ class Tracer {
     return false;
   }
 
+  const Diagram& d_;
+  const Instance& in_;
+  double radius_;
+};
+
+class Tracer {
+ public:
+  Tracer(const Diagram& d, const Instance& in, std::vector<Entry> entries)
+      : d_(d), in_(in), entries_(std::move(entries)) {}
+
+  Result<zone::Rings> rings(const Context& context) {
+    if (!is_sound())
+      return Error{ErrorCode::computation, "the Voronoi diagram is not sound at this radius", "",
+                   "please report this input"};
+    zone::Rings rings;
+    std::vector<char> done(entries_.size(), 0);
+    std::vector<Index> from;  // per piece: the face it comes from
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      for (std::size_t k = i; !done[k]; k = following(k)) {
+        done[k] = 1;
+        rings.element.push_back(entries_[k].face);
+        from.push_back(entries_[k].link == none ? entries_[k].face : d_.label[entries_[k].link]);
+        if (entries_[k].link == none) break;
+      }
+      if (rings.element.size() > rings.begin.back()) rings.begin.push_back(Index(rings.element.size()));
+    }
+    rings.vertex.resize(from.size());
+    Context quiet;
+    quiet.threads = context.threads;
+    kernel::parallel_blocks(quiet, from.size(), 1 << 12, [&](std::size_t first, std::size_t last) {
+      for (std::size_t e = first; e < last; ++e) rings.vertex[e] = zone::crossing(in_, from[e], rings.element[e]);
+    });
+    return rings;
+  }
+
+ private:
+  /// Every piece enters and leaves by a link that has a face behind it, where another piece continues.
+  bool is_sound() const {
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+      const Entry& e = entries_[k];
+      if (e.link == none) continue;
+      if (e.exit == none || d_.twin[e.link] == none || d_.twin[e.exit] == none || following(k) == entries_.size())
+        return false;
+    }
+    return true;
+  }
+
   /// The piece that goes on in the face behind the link this one leaves by.
   std::size_t following(std::size_t k) const {
     const Index entered = d_.twin[entries_[k].exit], face = d_.label[entries_[k].exit];
@@ -115,16 +124,17 @@ class Tracer {
 
   const Diagram& d_;
   const Instance& in_;
-  double radius_;
   std::vector<Entry> entries_;
 };
 
 }  // namespace
 
+std::vector<Entry> find_entries(const Diagram& diagram, const Instance& instance, const Context& context) {
+  return Entrances(diagram, instance).find(context);
+}
+
 Result<zone::Rings> extract_rings(const Diagram& diagram, const Instance& instance, const Context& context) {
-  Tracer tracer(diagram, instance);
-  tracer.find_entries(context);
-  return tracer.rings(context);
+  return Tracer(diagram, instance, find_entries(diagram, instance, context)).rings(context);
 }
 
 }  // namespace krepl::voronoi

@@ -3,13 +3,15 @@
 #include <type_traits>
 #include <vector>
 
+#include "kernel/wide.hpp"
 #include "krepl/context.hpp"
-#include "voronoi/wide.hpp"
 #include "zone/instance.hpp"
 
 namespace krepl::voronoi {
 
 using kernel::quad;
+using kernel::wide;
+using kernel::widened;
 using zone::Index;
 using zone::Instance;
 using zone::none;
@@ -85,10 +87,6 @@ class Sites {
   Index owner(Index vertex) const { return owner_[vertex]; }
 
  private:
-  static wide widened(quad x) {  // three doubles hold all bits
-    const double high = double(x), middle = double(x - high), low = double(x - high - middle);
-    return wide(high) + wide(middle) + wide(low);
-  }
   template <class Real>
   Vector<Real> unit(Index segment) const {
     const auto s = in_.site(segment);

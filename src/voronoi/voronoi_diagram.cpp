@@ -7,6 +7,8 @@
 #include "krepl/voronoi.hpp"
 #include "voronoi/bisector.hpp"
 #include "voronoi/extract.hpp"
+#include "voronoi/owner_lobes.hpp"
+#include "voronoi/owner_zones.hpp"
 #include "zone/assembly.hpp"
 #include "zone/precision.hpp"
 
@@ -30,6 +32,11 @@ struct VoronoiDiagram::Parts {
   }
 };
 
+bool diagram_pays(const Network& network, std::span<const double> radii) {
+  constexpr std::size_t many = 16;
+  return radii.size() >= many && *std::max_element(radii.begin(), radii.end()) < network.extent();
+}
+
 Result<VoronoiDiagram> VoronoiDiagram::build(std::shared_ptr<const Network> network, const Context& context) {
   constexpr double largest_number = 1e18;
   if (network->extent() > largest_number) {
@@ -48,15 +55,41 @@ Result<VoronoiDiagram> VoronoiDiagram::build(std::shared_ptr<const Network> netw
   return VoronoiDiagram(std::move(parts));
 }
 
-Result<Zone> VoronoiDiagram::zone(const ZoneOptions& options, const Context& context) const {
-  const auto precision = zone::precision_for(network(), options.radius);
-  if (!precision) return precision.error();
-  if (options.radius >= horizon()) {
+namespace {
+
+Result<zone::Precision> precision_within(const Network& network, double radius, double horizon) {
+  const auto precision = zone::precision_for(network, radius);
+  if (precision && radius >= horizon) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.6g", options.radius);
+    std::snprintf(text, sizeof text, "%.6g", radius);
     return Error{ErrorCode::usage, "the radius " + std::string(text) + " is beyond the horizon of the Voronoi diagram",
                  "", "take the engine intervals"};
   }
+  return precision;
+}
+
+}  // namespace
+
+Result<std::vector<OwnerZone>> VoronoiDiagram::owner_zones(double radius, std::span<const std::uint32_t> part_owner,
+                                                           double max_error, const Context& context) const {
+  if (part_owner.size() != network().part_count()) {
+    return Error{ErrorCode::usage,
+                 "there are " + std::to_string(part_owner.size()) + " owners for " +
+                     std::to_string(network().part_count()) + " parts",
+                 "", "give one owner for each part"};
+  }
+  if (!(max_error > 0)) return Error{ErrorCode::usage, "the largest error of chords is not positive", "", ""};
+  const auto precision = precision_within(network(), radius, horizon());
+  if (!precision) return precision.error();
+  const voronoi::Instance instance(parts_->instance, radius, precision->effective_radius, precision->resolution);
+  voronoi::OwnerLobes lobes(parts_->diagram, instance);
+  if (Status found = lobes.find(network(), part_owner); !found) return found.error();
+  return voronoi::owner_zones(network(), parts_->diagram, instance, lobes, {max_error, precision->resolution}, context);
+}
+
+Result<Zone> VoronoiDiagram::zone(const ZoneOptions& options, const Context& context) const {
+  const auto precision = precision_within(network(), options.radius, horizon());
+  if (!precision) return precision.error();
   const voronoi::Instance instance(parts_->instance, options.radius, precision->effective_radius,
                                    precision->resolution);
   auto rings = voronoi::extract_rings(parts_->diagram, instance, context);

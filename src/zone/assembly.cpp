@@ -10,7 +10,8 @@ using zone::Index;
 using zone::none;
 
 Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, const zone::Instance& instance,
-                                  zone::Rings rings, double resolution, ZoneCounters counters, const Context& context) {
+                                  zone::Rings rings, double resolution, ZoneCounters counters, const Context& context,
+                                  std::shared_ptr<const zone::VariedSites> varied) {
   const Error cancelled{ErrorCode::cancelled, "cancelled", "", ""};
   if (context.cancelled()) return cancelled;
   rings = zone::contract(instance, std::move(rings), resolution, context, counters);
@@ -18,7 +19,9 @@ Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, const 
   if (context.cancelled()) return cancelled;
   const auto nesting = zone::nest(instance, rings, context);
   if (!nesting) return nesting.error();
-  return assemble(std::move(network), instance.nominal_radius(), std::move(rings), *nesting, counters, context);
+  Zone zone = assemble(std::move(network), instance.nominal_radius(), std::move(rings), *nesting, counters, context);
+  zone.varied_ = std::move(varied);
+  return zone;
 }
 
 Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, double distance, zone::ShapedRings rings,
@@ -30,7 +33,10 @@ Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, double
   zone.radius_ = std::abs(distance);
   zone.inward_ = distance < 0;
   zone.network_ = std::move(network);
-  for (const Zone::Piece& p : rings.piece) zone.vertex_.push_back(p.start);
+  for (Zone::Piece& p : rings.piece) {
+    p.radius = zone.radius_;
+    zone.vertex_.push_back(p.start);
+  }
   zone.shaped_ = std::move(rings.piece);
   zone.ring_begin_ = std::move(rings.begin);
   zone.ring_is_hole_ = nesting->is_hole;

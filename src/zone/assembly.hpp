@@ -14,7 +14,8 @@ class ZoneAssembly {
   /// From closed rings, by whichever engine: contracts what no double lies between, drops what lies inside polygons,
   /// nests.
   static Result<Zone> finish(std::shared_ptr<const Network> network, const zone::Instance& instance, zone::Rings rings,
-                             double resolution, ZoneCounters counters, const Context& context);
+                             double resolution, ZoneCounters counters, const Context& context,
+                             std::shared_ptr<const zone::VariedSites> varied = nullptr);
 
   /// From closed rings of any pieces, the zone on their left. `distance` is the radius, negative where polygons were
   /// shrunk; opposite boundaries are no nearer to each other than `slack`.

@@ -25,7 +25,7 @@ Vector<double> at(Point p) { return {p.x, p.y}; }
 Hull hull_of_side(const Instance& in, Index element) {
   const auto e = in.ends(element);
   const Vector<double> p = at(in.vertices()[e.from]), d = in.difference<double>(e.to, e.from);
-  const double l = length(d), r = in.radius();
+  const double l = length(d), r = in.radius_of(element);
   const Vector<double> start{p.x + d.y / l * r, p.y - d.x / l * r};
   return {{start, {start.x + d.x, start.y + d.y}}, 2, {start.x + d.x / 2, start.y + d.y / 2}, l / 2};
 }
@@ -34,7 +34,7 @@ Hull hull_of_side(const Instance& in, Index element) {
 Hull hull_of_circle(const Instance& in, Index element) {
   const Index v = in.vertex_of(element);
   const Vector<double> c = at(in.vertices()[v]);
-  const double r = in.radius();
+  const double r = in.radius_of(element);
   const auto sector = in.sector(v);
   if (sector.before == element) {
     return {{Vector<double>{c.x - r, c.y - r}, {c.x + r, c.y - r}, {c.x + r, c.y + r}, {c.x - r, c.y + r}}, 4, c, r};
@@ -90,7 +90,7 @@ bool contains(const Instance& in, Index site, const Hull& hull) {
   const Vector<double> a = at(in.vertices()[s.a]);
   const Vector<double> d = in.difference<double>(s.b, s.a);
   const double span = d.x * d.x + d.y * d.y;
-  const double square = in.radius() * in.radius() * (1 - contains_slack);
+  const double radius = in.site_radius(site), square = radius * radius * (1 - contains_slack);
   for (int i = 0; i < hull.corners; ++i) {
     const Vector<double> w{hull.corner[i].x - a.x, hull.corner[i].y - a.y};
     const double along = w.x * d.x + w.y * d.y;
@@ -114,7 +114,7 @@ class Worker {
       : in_(instance), tree_(tree), context_(context) {
     // A hull's corners are off by a few units in the last place of the coordinates; where that is not far below the slack
     // that contains() leaves, nothing is covered "at once" and the error-bounded way decides.
-    quick_ = instance.extent() * 0x1p-50 < instance.radius() * contains_slack * 0.01;
+    quick_ = instance.extent() * 0x1p-50 < instance.least_radius() * contains_slack * 0.01;
   }
 
   void run(Index first, Index last, std::vector<Piece>& out, ZoneCounters& counters) {
@@ -142,13 +142,16 @@ class Worker {
   }
   static constexpr Index group = 16;  // elements that share a frontier: consecutive ones are neighbours
 
-  /// The search of all elements of the group starts from nodes within R of them, that is within 2R of their vertices.
+  /// The search of all elements of the group starts from nodes within the least radius of them, that is within this and
+  /// their own of their vertices.
   const SiteTree::Frontier& frontier(Index element) {
     if (has_frontier_) return frontier_;
     has_frontier_ = true;
     kernel::Box box;
+    double widest = 0;
     const Index end = in_.is_side(element) ? std::min(group_end_, in_.side_count()) : group_end_;
     for (Index e = element; e < end; ++e) {
+      widest = std::max(widest, in_.radius_of(e));
       if (in_.is_side(e)) {
         box.add(in_.vertices()[in_.ends(e).from]);
         box.add(in_.vertices()[in_.ends(e).to]);
@@ -158,8 +161,8 @@ class Worker {
     }
     const Vector<double> low{box.min_x, box.min_y}, high{box.max_x, box.max_y};
     const double half_width = square_root((high.x - low.x) * (high.x - low.x) + (high.y - low.y) * (high.y - low.y)) / 2;
-    frontier_ = tree_.frontier(
-        tree_.region({(low.x + high.x) / 2, (low.y + high.y) / 2}, half_width, low, high, 2 * in_.radius()));
+    frontier_ = tree_.frontier(tree_.region({(low.x + high.x) / 2, (low.y + high.y) / 2}, half_width, low, high,
+                                            widest + in_.least_radius()));
     return frontier_;
   }
 
@@ -193,7 +196,7 @@ class Worker {
     gaps_.start(e, element.end(), element.end_error(), element.start_label(), element.end_label());
     bool covered = false;
     double open = element.end();
-    SiteTree::Region region = region_of(tree_, hull, in_.radius());
+    SiteTree::Region region = region_of(tree_, hull, in_.least_radius());
     tree_.visit_nearest(frontier(e), region, heap_, [&](Index site) {
       if (element.is_own(site)) return true;
       ++counters.candidates;
@@ -206,7 +209,7 @@ class Worker {
       const double left = gaps_.open_high() - gaps_.open_low();
       if (left < 0.7 * open && left <= Element<double>::longest_simple_stretch) {
         open = left;
-        region = region_of(tree_, hull_of_stretch(in_, element, gaps_.open_low(), gaps_.open_high()), in_.radius());
+        region = region_of(tree_, hull_of_stretch(in_, element, gaps_.open_low(), gaps_.open_high()), in_.least_radius());
       }
       return true;
     });

@@ -31,7 +31,7 @@ Vector<Real> combine(Real k, Vector<Real> m, Real s, Vector<Real> t) {
 template <class Real>
 CircleElement<Real>::CircleElement(const Instance& instance, Index element)
     : instance_(instance), vertex_(instance.vertex_of(element)), sector_(instance.sector(vertex_)) {
-  radius_ = instance.radius();
+  radius_ = instance.radius_of(element);
   unseen_ = instance.unseen_move<Real>();
   const Real rounding = Real(16 * kernel::unit_roundoff<Real>);
   if (sector_.before == element) {  // an isolated vertex: the full circle
@@ -111,6 +111,10 @@ Covers<Real> CircleElement<Real>::covered_by(Index site) const {
   Covers<Real> out;
   const auto ends = instance_.site(site);
   if (ends.a == vertex_ || ends.b == vertex_) return out;  // leaves the sector uncovered, by the sector's definition
+  if (Real(instance_.site_radius(site)) != radius_) {
+    add_other_radius(out, site);
+    return out;
+  }
   const Real rounding = Real(16 * kernel::unit_roundoff<Real>);
   const Vector<Real> a = rotate(instance_.difference<Real>(ends.a, vertex_));
   if (ends.a == ends.b) {

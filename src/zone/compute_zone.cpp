@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include "krepl/zone.hpp"
@@ -12,7 +13,9 @@ namespace zone {
 Result<ZoneRings> zone_rings(const Network& network, double radius, const Context& context) {
   const auto precision = precision_for(network, radius);
   if (!precision) return precision.error();
-  const Error cancelled{ErrorCode::cancelled, "cancelled", "", ""};
+  const zone::Instance instance(*network, options.radius, precision->effective_radius, precision->resolution, context);
+  return zone_of_instance(std::move(network), instance, precision->resolution, context, nullptr);
+}
 
   ZoneRings result;
   result.resolution = precision->resolution;
@@ -32,11 +35,53 @@ Result<ZoneRings> zone_rings(const Network& network, double radius, const Contex
 
 }  // namespace zone
 
+namespace {
+
+Result<Zone> zone_of_instance(std::shared_ptr<const Network> network, const zone::Instance& instance, double resolution,
+                              const Context& context, std::shared_ptr<const zone::VariedSites> varied) {
+  const Error cancelled{ErrorCode::cancelled, "cancelled", "", ""};
+  ZoneCounters counters;
+  std::vector<zone::Piece> pieces;
+  {
+    const zone::SiteTree tree(instance, context);
+    if (context.cancelled()) return cancelled;
+    pieces = zone::uncovered_pieces(instance, tree, context, counters);
+  }
+  if (context.cancelled()) return cancelled;
+  auto linked = zone::link_pieces(instance, pieces, context);
+  if (!linked) return linked.error();
+  pieces = {};
+  return ZoneAssembly::finish(std::move(network), instance, std::move(*linked), resolution, counters, context,
+                              std::move(varied));
+}
+
+}  // namespace
+
 Result<Zone> compute_zone(std::shared_ptr<const Network> network, const ZoneOptions& options, const Context& context) {
   auto found = zone::zone_rings(*network, options.radius, context);
   if (!found) return found.error();
   return ZoneAssembly::finish(std::move(network), *found->instance, std::move(found->rings), found->resolution,
                               found->counters, context);
+}
+
+Result<Zone> compute_zone(std::shared_ptr<const Network> network, std::span<const double> part_radii,
+                          const Context& context) {
+  if (part_radii.size() != network->part_count()) {
+    return Error{ErrorCode::usage,
+                 "there are " + std::to_string(part_radii.size()) + " radii for " + std::to_string(network->part_count()) +
+                     " parts",
+                 "", "give one radius for each part"};
+  }
+  for (const double radius : part_radii) {  // comparisons would overlook one that is not a number
+    if (!(radius > 0)) return zone::precision_for(*network, radius).error();
+  }
+  const auto [least, most] = std::minmax_element(part_radii.begin(), part_radii.end());
+  if (*least == *most) return compute_zone(std::move(network), ZoneOptions{*most}, context);
+  const auto precision = zone::precision_for(*network, *least, *most);
+  if (!precision) return precision.error();
+  auto sites = zone::vary_sites(*network, part_radii);
+  const zone::Instance instance(*network, *sites, precision->effective_radius - *most, precision->resolution, context);
+  return zone_of_instance(std::move(network), instance, precision->resolution, context, std::move(sites));
 }
 
 }  // namespace krepl

@@ -59,7 +59,7 @@ class Contraction {
       const Index n = rings.next(ring, e), m = rings.next(ring, n);
       if (rings.element[e] == rings.element[n]) return true;
       const double chord = distance(rings.vertex[n], rings.vertex[m]);
-      if (chord <= resolution_ || (rings.element[e] == rings.element[m] && strays_little(chord))) return true;
+      if (chord <= resolution_ || (rings.element[e] == rings.element[m] && strays_little(chord, rings.element[e], rings.element[n]))) return true;
     }
     return false;
   }
@@ -92,7 +92,7 @@ class Contraction {
       const Point p = c.vertex[i], q = c.vertex[c.after[i]];
       area += twice_area(in_, c.element[i], p, q, c.vertex[c.head]);
       perimeter += distance(p, q);
-      across = std::max({across, distance(p, c.vertex[c.head]), is_long(c, i) ? in_.nominal_radius() : 0.0});
+      across = std::max({across, distance(p, c.vertex[c.head]), is_long(c, i) ? in_.nominal_radius_of(c.element[i]) : 0.0});
       i = c.after[i];
     } while (i != c.head);
     return across <= 8 * resolution_ || std::abs(area) <= resolution_ * perimeter;
@@ -100,7 +100,9 @@ class Contraction {
 
  private:
   /// An arc or line between two points of another piece's element, `chord` apart, is within the resolution of it.
-  bool strays_little(double chord) const { return chord * chord <= 4 * in_.radius() * resolution_; }
+  bool strays_little(double chord, Index e, Index other) const {
+    return chord * chord <= 4 * std::min(in_.radius_of(e), in_.radius_of(other)) * resolution_;
+  }
 
   bool step(Chain& c, Index i, std::uint64_t& collapsed) const {
     const Index before = c.before[i], after = c.after[i];
@@ -112,7 +114,7 @@ class Contraction {
     }
     const double chord = distance(c.vertex[i], c.vertex[after]);
     const bool tiny = chord <= resolution_;
-    const bool bump = c.count > 2 && c.element[before] == c.element[after] && strays_little(chord);
+    const bool bump = c.count > 2 && c.element[before] == c.element[after] && strays_little(chord, c.element[before], c.element[i]);
     if ((!tiny && !bump) || is_long(c, i)) return false;
     // Many short pieces in a row must not carry the end of the one before them along.
     if (!bump && chord > 0 && distance(c.end[before], c.vertex[after]) > 4 * resolution_) return false;
@@ -143,7 +145,7 @@ double twice_area(const Instance& in, Index element, Point p, Point q, Point bas
   if (p == q) angle = 2 * M_PI;
   // Arcs run counter-clockwise; only those of isolated vertices exceed a half circle, others may be a shade below zero.
   else if (angle < 0) angle = in.sector(in.vertex_of(element)).before == element || angle < -1 ? angle + 2 * M_PI : 0;
-  const double r = in.nominal_radius();
+  const double r = in.nominal_radius_of(element);
   return triangle + r * r * (angle - std::sin(angle));
 }
 

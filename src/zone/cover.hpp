@@ -24,7 +24,7 @@ struct Cover {
   Index site;
 };
 
-/// At most two intervals: a circle that begins inside a covered stretch sees it at both its ends.
+/// A circle that begins inside a covered stretch sees it at both its ends, and a cigar thinner than it in two stretches.
 template <class Real>
 class Covers {
  public:
@@ -114,6 +114,8 @@ class CircleElement {
   void clip(Covers<Real>& out, const Cover<Real>& cover) const;
   bool add_circle_end(CoverEnd<Real>& end, Vector<Real> q, Real error, Index vertex, int direction) const;
   void add_nearly_touching(Covers<Real>& out, Vector<Real> m, Real width, Index site, bool through) const;
+  void add_other_radius(Covers<Real>& out, Index site) const;
+  void add_undecided(Covers<Real>& out, Index site) const;
 
   const Instance& instance_;
   Index vertex_;

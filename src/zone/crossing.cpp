@@ -21,6 +21,14 @@ struct Place {
   Real lever;
 };
 
+/// The radius that an element is evaluated with: the enlarged or the nominal one.
+template <class Real>
+struct Radii {
+  Real operator()(Index element) const { return enlarged ? in.radius_of(element) : in.nominal_radius_of(element); }
+  const Instance& in;
+  bool enlarged;
+};
+
 /// A side's frame as in SideElement: u along, y outwards from the offset line.
 template <class Real>
 struct Frame {
@@ -46,19 +54,20 @@ struct Frame {
 
 /// direction -1: the side runs into the disk; +1: it comes out.
 template <class Real>
-Place<Real> side_and_circle(const Instance& in, Index side, Index circle, int direction, Real r) {
-  const Frame<Real> f(in, side, r);
+Place<Real> side_and_circle(const Instance& in, Index side, Index circle, int direction, Radii<Real> r) {
+  const Frame<Real> f(in, side, r(side));
   const Index v = in.vertex_of(circle);
   if (v == f.ends.to && direction < 0) return f.place(f.span, 1);
   if (v == f.ends.from && direction > 0) return f.place(0, 1);
   const Vector<Real> q = f.locate(v);
-  const Real square = (f.radius - q.y) * (f.radius + q.y);
-  return f.place(q.x + direction * square_root(std::max<Real>(square, 0)), square / (f.radius * f.radius));
+  const Real radius = r(circle);
+  const Real square = (radius - q.y) * (radius + q.y);
+  return f.place(q.x + direction * square_root(std::max<Real>(square, 0)), square / (radius * radius));
 }
 
 template <class Real>
-Place<Real> side_and_side(const Instance& in, Index from, Index to, Real r) {
-  const Frame<Real> f(in, from, r);
+Place<Real> side_and_side(const Instance& in, Index from, Index to, Radii<Real> r) {
+  const Frame<Real> f(in, from, r(from));
   const auto other = in.ends(to);
   if (other.from == f.ends.to) {  // neighbours at a concave corner: T = R / tan(half the angle)
     Vector<Real> d = f.rotate(in.difference<Real>(other.to, other.from));
@@ -71,17 +80,29 @@ Place<Real> side_and_side(const Instance& in, Index from, Index to, Real r) {
   const Vector<Real> c = f.locate(other.from);
   const Vector<Real> d = f.rotate(in.difference<Real>(other.to, other.from));
   const Real span = length(d);
-  const Real t = -(c.y + f.radius * d.x / span) / d.y;
-  auto p = f.place(c.x + t * d.x - f.radius * d.y / span, absolute(d.y) / span);
-  p.lever = std::max(p.lever, (absolute(t) * span + f.radius) / span);
+  const Real radius = r(to);
+  const Real t = -(c.y + radius * d.x / span) / d.y;
+  auto p = f.place(c.x + t * d.x - radius * d.y / span, absolute(d.y) / span);
+  p.lever = std::max(p.lever, (absolute(t) * span + radius) / span);
   return p;
 }
 
 template <class Real>
-Place<Real> circle_and_circle(const Instance& in, Index from, Index to, Real r) {
+Place<Real> circle_and_circle(const Instance& in, Index from, Index to, Radii<Real> radii) {
   const Index base = in.vertex_of(from);
   const Vector<Real> d = in.difference<Real>(in.vertex_of(to), base);
-  const Real span = length(d);
+  const Real span = length(d), r = radii(from), other = radii(to);
+  if (r != other) {
+    // The cosine of the angle at the base, in a triangle with sides r, `other` and span; 1 -+ it in products.
+    const Real c = (span + (r - other) * (r + other) / span) / (2 * r);
+    const Real square =
+        (other - span + r) * (other + span - r) * (span + r - other) * (span + r + other) / (4 * span * span * r * r);
+    const Real s = square_root(std::max<Real>(square, 0));
+    const Real sine = s * span / other;  // of the angle between the circles
+    const Vector<Real> u{d.x / span, d.y / span};
+    return {base, {r * (c * u.x + s * u.y), r * (c * u.y - s * u.x)}, std::min<Real>(square, sine * sine),
+            std::max(r, other) / span};
+  }
   const Real c = span / (2 * r);
   const Real square = (1 - c) * (1 + c);
   const Real s = square_root(std::max<Real>(square, 0));
@@ -90,8 +111,9 @@ Place<Real> circle_and_circle(const Instance& in, Index from, Index to, Real r) 
 }
 
 template <class Real>
-Place<Real> place_of(const Instance& in, Index from, Index to, Real r) {
-  if (from == to) return {in.vertex_of(from), {r, Real(0)}, 1, 0};  // where a full circle starts
+Place<Real> place_of(const Instance& in, Index from, Index to, bool enlarged) {
+  const Radii<Real> r{in, enlarged};
+  if (from == to) return {in.vertex_of(from), {r(from), Real(0)}, 1, 0};  // where a full circle starts
   if (in.is_side(from)) {
     return in.is_side(to) ? side_and_side<Real>(in, from, to, r) : side_and_circle<Real>(in, from, to, -1, r);
   }
@@ -104,11 +126,11 @@ Point add(Point base, Vector<double> offset) { return {base.x + offset.x, base.y
 
 Point crossing(const Instance& in, Index from, Index to) {
   const auto unmoved = [&](const Place<double>& p) { return p.lever * 16 * in.jitter() < in.enlargement(); };
-  const auto nominal = place_of<double>(in, from, to, in.nominal_radius());
+  const auto nominal = place_of<double>(in, from, to, false);
   if (nominal.condition > in.nominal_condition() && unmoved(nominal)) return add(in.vertices()[nominal.base], nominal.offset);
-  const auto p = place_of<double>(in, from, to, in.radius());
+  const auto p = place_of<double>(in, from, to, true);
   if (p.condition > ill_conditioned && unmoved(p)) return add(in.vertices()[p.base], p.offset);
-  const auto q = place_of<quad>(in, from, to, in.radius());
+  const auto q = place_of<quad>(in, from, to, true);
   const Vector<quad> base = in.moved(q.base);
   return {double(base.x + q.offset.x), double(base.y + q.offset.y)};
 }
@@ -118,8 +140,7 @@ bool is_long_arc(const Instance& in, Index before, Index circle, Index after) {
     const Vector<quad> d = in.difference<quad>(p.base, in.vertex_of(circle));
     return Vector<quad>{d.x + p.offset.x, d.y + p.offset.y};
   };
-  const quad r = in.radius();
-  const auto p = relative(place_of<quad>(in, before, circle, r)), q = relative(place_of<quad>(in, circle, after, r));
+  const auto p = relative(place_of<quad>(in, before, circle, true)), q = relative(place_of<quad>(in, circle, after, true));
   return p.x * q.y - p.y * q.x <= 0;
 }
 

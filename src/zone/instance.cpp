@@ -27,9 +27,26 @@ Instance::Instance(const Network& network, double nominal_radius, double radius,
       segments_(network.segments()),
       nominal_radius_(nominal_radius),
       radius_(radius),
+      least_radius_(radius),
+      enlargement_(radius - nominal_radius),
       nominal_condition_(4 * (radius - nominal_radius) / resolution),
       extent_(network.extent()),
       jitter_(std::max(0x1p-72 * network.extent(), 0x1p-88 * radius)) {  // well above what 113 bits resolve
+  find_shape(context);
+}
+
+Instance::Instance(const Network& network, const VariedSites& sites, double enlargement, double resolution,
+                   const Context& context)
+    : vertices_(sites.vertices),
+      segments_(sites.segments),
+      radii_(sites.radius),
+      nominal_radius_(sites.most),
+      radius_(sites.most + enlargement),
+      least_radius_(sites.least + enlargement),
+      enlargement_(enlargement),
+      nominal_condition_(4 * enlargement / resolution),
+      extent_(network.extent()),
+      jitter_(std::max(0x1p-72 * network.extent(), 0x1p-88 * sites.most)) {
   find_shape(context);
 }
 
@@ -38,6 +55,8 @@ Instance::Instance(const Instance& other, double nominal_radius, double radius, 
       segments_(other.segments_),
       nominal_radius_(nominal_radius),
       radius_(radius),
+      least_radius_(radius),
+      enlargement_(radius - nominal_radius),
       nominal_condition_(4 * (radius - nominal_radius) / resolution),
       extent_(other.extent_),
       jitter_(other.jitter_),

@@ -9,12 +9,11 @@
 #include "kernel/quad.hpp"
 #include "krepl/context.hpp"
 #include "krepl/network.hpp"
+#include "zone/varied_sites.hpp"
 
 namespace krepl::zone {
 
 using kernel::quad;
-using Index = std::uint32_t;
-inline constexpr Index none = ~Index{0};
 
 template <class Real>
 struct Vector {
@@ -33,6 +32,10 @@ Real length(Vector<Real> v) {
 /// moved ones. So every decision is about the same instance, and decisions taken at different elements cannot
 /// contradict each other.
 ///
+/// Where radii differ (VariedSites), a vertex stands once for each radius of the segments that meet there: copies share
+/// coordinates, and so their move, and nothing else. Segments of one radius are neighbours as ever; to those of another
+/// radius they are strangers that cross.
+///
 /// Boundary elements have numbers: 2s is the offset line on the right of segment s as it runs from a to b, 2s+1 the one
 /// on the right of its reverse; side_count() + v is the circle about vertex v. Sites are the segments, then the
 /// isolated vertices as segments of length zero.
@@ -44,16 +47,25 @@ class Instance {
 
   /// `resolution`: pieces shorter than this will be contracted, so vertices may be displaced by a quarter of it.
   Instance(const Network& network, double nominal_radius, double radius, double resolution, const Context& context);
+  /// With a radius for each vertex; `sites` must outlive the instance.
+  Instance(const Network& network, const VariedSites& sites, double enlargement, double resolution,
+           const Context& context);
   /// The same moved vertices at another radius. O(1).
   Instance(const Instance& other, double nominal_radius, double radius, double resolution);
 
-  /// The enlarged radius, which decides everything.
+  /// The enlarged radius, which decides everything; where radii differ, the largest.
   double radius() const { return radius_; }
-  /// The radius as given, for coordinates where the difference cannot matter.
+  /// The radius as given, for coordinates where the difference cannot matter; where radii differ, the largest.
   double nominal_radius() const { return nominal_radius_; }
+  /// The smallest enlarged radius.
+  double least_radius() const { return least_radius_; }
+  /// The enlarged radius, and the one as given, of an element and of a site.
+  double radius_of(Index element) const { return radii_.empty() ? radius_ : radii_[owner(element)] + enlargement(); }
+  double nominal_radius_of(Index element) const { return radii_.empty() ? nominal_radius_ : radii_[owner(element)]; }
+  double site_radius(Index i) const { return radii_.empty() ? radius_ : radii_[site(i).a] + enlargement(); }
   /// Crossings at least this well conditioned may be evaluated with the nominal radius.
   double nominal_condition() const { return nominal_condition_; }
-  double enlargement() const { return radius_ - nominal_radius_; }
+  double enlargement() const { return enlargement_; }
   double jitter() const { return jitter_; }
   /// Largest absolute coordinate of a vertex.
   double extent() const { return extent_; }
@@ -112,12 +124,17 @@ class Instance {
     std::vector<Sector> sectors;
   };
   void find_shape(const Context& context);
+  /// A vertex that has the element's radius.
+  Index owner(Index element) const { return is_side(element) ? segments_[element >> 1].a : vertex_of(element); }
   Sector find_sector(Index vertex, std::span<const Index> outgoing) const;
 
   std::span<const Point> vertices_;
   std::span<const Network::Segment> segments_;
+  std::span<const double> radii_;  // as given, per vertex; none where all are equal
   double nominal_radius_;
   double radius_;
+  double least_radius_;
+  double enlargement_;
   double nominal_condition_;
   double extent_;
   double jitter_;

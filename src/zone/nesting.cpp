@@ -6,6 +6,7 @@
 
 #include "kernel/box_tree.hpp"
 #include "kernel/parallel.hpp"
+#include "zone/polygon_locator.hpp"
 
 namespace krepl::zone {
 namespace {
@@ -20,7 +21,7 @@ double cross(Point o, Point p, Point q) { return (p.x - o.x) * (q.y - o.y) - (p.
 /// Everything about one piece that the ray needs.
 class PieceShape {
  public:
-  PieceShape(const Instance& in, Index element, Point p, Point q) : p_(p), q_(q), radius_(in.nominal_radius()) {
+  PieceShape(const Instance& in, Index element, Point p, Point q) : p_(p), q_(q), radius_(in.nominal_radius_of(element)) {
     arc_ = !in.is_side(element);
     if (arc_) centre_ = in.vertices()[in.vertex_of(element)];
   }
@@ -227,60 +228,6 @@ Result<Nesting> nest_picture(const AnyPicture& picture, double slack, const Cont
   return nesting;
 }
 
-/// Answers whether a place is inside some polygon of the network, even-odd by feature.
-class Polygons {
- public:
-  explicit Polygons(const Network& network) : sides_(sides_of(network)), tree_(boxes_of(sides_)) {}
-
-  bool hold(Point p) {
-    hits_.clear();
-    tree_.visit_left_of(p, [] { return -infinity; }, [&](std::size_t box) {
-      for (std::size_t i = box * chunk; i < std::min(sides_.size(), (box + 1) * chunk); ++i) {
-        const Side& s = sides_[i];
-        if ((s.p.y <= p.y) == (s.q.y <= p.y)) continue;
-        const bool upward = s.p.y < s.q.y;
-        if ((cross(s.p, s.q, p) < 0) == upward) hits_.push_back(s.feature);
-      }
-    });
-    std::sort(hits_.begin(), hits_.end());
-    for (std::size_t i = 0, j = 0; i < hits_.size(); i = j) {
-      while (j < hits_.size() && hits_[j] == hits_[i]) ++j;
-      if ((j - i) % 2 == 1) return true;
-    }
-    return false;
-  }
-
- private:
-  struct Side {
-    Point p, q;
-    std::int64_t feature;
-  };
-  static std::vector<Side> sides_of(const Network& network) {
-    std::vector<Side> sides;
-    for (Index part = 0; part < network.part_count(); ++part) {
-      if (!network.part_is_ring(part)) continue;
-      const auto chain = network.part(part);
-      for (std::size_t i = 0; i < chain.size(); ++i) {
-        const Index a = chain[i], b = chain[(i + 1) % chain.size()];
-        if (a != b) sides.push_back({network.vertices()[a], network.vertices()[b], network.part_feature(part)});
-      }
-    }
-    return sides;
-  }
-  static std::vector<Box> boxes_of(const std::vector<Side>& sides) {
-    std::vector<Box> boxes((sides.size() + chunk - 1) / chunk);
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      boxes[i / chunk].add(sides[i].p);
-      boxes[i / chunk].add(sides[i].q);
-    }
-    return boxes;
-  }
-
-  std::vector<Side> sides_;
-  kernel::BoxTree tree_;
-  std::vector<std::int64_t> hits_;
-};
-
 }  // namespace
 
 Result<Nesting> nest(const Instance& in, const Rings& rings, const Context& context) {
@@ -293,11 +240,13 @@ Result<Nesting> nest(const ShapedRings& rings, double radius, double slack, cons
 }
 
 Rings drop_rings_inside_polygons(const Network& network, Rings rings) {
-  Polygons polygons(network);
+  const PolygonLocator polygons(network);
+  std::vector<std::int64_t> around;
   Rings kept;
   for (Index r = 0; r < rings.ring_count(); ++r) {
     const auto first = rings.begin[r], last = rings.begin[r + 1];
-    if (polygons.hold(rings.vertex[first])) continue;
+    polygons.find(rings.vertex[first], around);
+    if (!around.empty()) continue;
     kept.element.insert(kept.element.end(), rings.element.begin() + first, rings.element.begin() + last);
     kept.vertex.insert(kept.vertex.end(), rings.vertex.begin() + first, rings.vertex.begin() + last);
     kept.begin.push_back(Index(kept.element.size()));
@@ -306,12 +255,14 @@ Rings drop_rings_inside_polygons(const Network& network, Rings rings) {
 }
 
 ShapedRings rings_by_polygons(const Network& network, const ShapedRings& rings, Point origin, bool inside) {
-  Polygons polygons(network);
+  const PolygonLocator polygons(network);
+  std::vector<std::int64_t> around;
   const Point shift{origin.x - network.origin().x, origin.y - network.origin().y};
   ShapedRings kept;
   for (Index r = 0; r < rings.ring_count(); ++r) {
     const auto first = rings.piece.begin() + rings.begin[r], last = rings.piece.begin() + rings.begin[r + 1];
-    if (polygons.hold({first->start.x + shift.x, first->start.y + shift.y}) != inside) continue;
+    polygons.find({first->start.x + shift.x, first->start.y + shift.y}, around);
+    if (around.empty() == inside) continue;
     kept.piece.insert(kept.piece.end(), first, last);
     kept.close();
   }

@@ -20,17 +20,23 @@ std::string number(double x) {
 }  // namespace
 
 Result<Precision> precision_for(const Network& network, double radius) {
-  if (!std::isfinite(radius) || radius <= 0) {
-    return Error{ErrorCode::usage, "the radius is " + number(radius), "", "give a positive, finite number"};
+  return precision_for(network, radius, radius);
+}
+
+Result<Precision> precision_for(const Network& network, double least, double radius) {
+  for (const double r : {least, radius}) {
+    if (!std::isfinite(r) || r <= 0) {
+      return Error{ErrorCode::usage, "the radius is " + number(r), "", "give a positive, finite number"};
+    }
   }
   const double scale = std::max(radius, network.extent());
-  if (scale > largest_number || radius < smallest_radius) {
+  if (scale > largest_number || least < smallest_radius) {
     return Error{ErrorCode::input, "coordinates or radius are beyond 1e18, or the radius is below 1e-100", "",
                  "scale the input"};
   }
   const double u = std::max(network.resolution(), unit_in_last_place(scale));
-  if (radius < 16384 * u) {
-    return Error{ErrorCode::usage, "the radius " + number(radius) + " is finer than the coordinates can hold", "",
+  if (least < 16384 * u) {
+    return Error{ErrorCode::usage, "the radius " + number(least) + " is finer than the coordinates can hold", "",
                  "use at least " + number(16384 * u)};
   }
   const double most = 0x1p-31 * scale;  // half of the contract's 1e-9 S

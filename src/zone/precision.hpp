@@ -20,5 +20,7 @@ struct Precision {
 
 /// ErrorCode::usage or input if the radius is not positive and finite, or too fine or too large for the coordinates.
 Result<Precision> precision_for(const Network& network, double radius);
+/// The same for several radii at once: effective_radius is that of the largest.
+Result<Precision> precision_for(const Network& network, double least, double most);
 
 }  // namespace krepl::zone

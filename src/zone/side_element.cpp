@@ -14,6 +14,7 @@ template <class Real>
 struct SideSite {
   Vector<Real> a, d, b;  // ends and their difference, in the frame
   Index site, vertex_a, vertex_b;
+  Real radius;           // of the cigar
   Real coordinate_error;
   Real span;             // |d|
   Real d_error;          // of d.x and d.y
@@ -29,7 +30,7 @@ SideElement<Real>::SideElement(const Instance& instance, Index element)
   const Vector<Real> d = instance.difference<Real>(ends_.to, ends_.from);
   length_ = length(d);
   u_ = {d.x / length_, d.y / length_};
-  radius_ = instance.radius();
+  radius_ = instance.radius_of(element);
   unseen_ = instance.unseen_move<Real>();
   relative_error_ = Real(16 * kernel::unit_roundoff<Real>) + 8 * unseen_ / length_;
   start_label_ = instance.sector(ends_.from).after == element ? instance.circle(ends_.from) : none;
@@ -46,9 +47,10 @@ Vector<Real> SideElement<Real>::locate(Index vertex) const {
 template <class Real>
 bool SideElement<Real>::add_disc(Covers<Real>& out, Index vertex, Index site) const {
   const Vector<Real> q = locate(vertex);
-  const Real e = relative_error_ * (absolute(q.x) + absolute(q.y) + radius_) + 4 * unseen_;
-  const Real square = (radius_ - q.y) * (radius_ + q.y);
-  const Real square_error = 8 * radius_ * e;
+  const Real r = instance_.site_radius(site);
+  const Real e = relative_error_ * (absolute(q.x) + absolute(q.y) + std::max(radius_, r)) + 4 * unseen_;
+  const Real square = (r - q.y) * (r + q.y);
+  const Real square_error = 8 * r * e;
   if (square < -square_error) return false;
   const bool certain = square > 4 * square_error;
   const Real half = square_root(std::max<Real>(square, 0));
@@ -66,13 +68,13 @@ bool SideElement<Real>::add_end(CoverEnd<Real>& end, Real numerator, Real numera
   const Real e = s.coordinate_error;
   bool certain = absolute(numerator) > numerator_error && absolute(numerator - s.rise) > numerator_error + s.d_error;
   if (s.rise <= s.d_error) {  // the sign of d.y is unknown: both numerators must decide alike
-    certain = certain && radius_ * absolute(s.cosine) - absolute(s.a.y) > numerator_error + s.rise + s.d_error;
+    certain = certain && s.radius * absolute(s.cosine) - absolute(s.a.y) > numerator_error + s.rise + s.d_error;
   }
   if (numerator > 0 && numerator < s.rise) {
     const Real t = numerator / s.rise;
-    const Real reach = radius_ * s.rise / s.span;
+    const Real reach = s.radius * s.rise / s.span;
     end.at = s.a.x + t * s.d.x + direction * reach;
-    end.error = e + radius_ * s.cosine_error + absolute(s.d.x) * (numerator_error + t * s.d_error) / s.rise + s.d_error;
+    end.error = e + s.radius * s.cosine_error + absolute(s.d.x) * (numerator_error + t * s.d_error) / s.rise + s.d_error;
     // Right of b -> a has the normal (d.y, -d.x) in this reflected frame.
     end.label = 2 * s.site + Index((direction > 0) == (s.sigma > 0));
     end.label_certain = certain;
@@ -80,8 +82,8 @@ bool SideElement<Real>::add_end(CoverEnd<Real>& end, Real numerator, Real numera
   }
   const bool at_a = numerator <= 0;
   const Vector<Real> q = at_a ? s.a : s.b;
-  const Real square = (radius_ - q.y) * (radius_ + q.y);
-  const Real square_error = 8 * radius_ * e;
+  const Real square = (s.radius - q.y) * (s.radius + q.y);
+  const Real square_error = 8 * s.radius * e;
   if (square < -square_error && certain) return false;
   if (square > 4 * square_error) {
     const Real half = square_root(square);
@@ -94,7 +96,7 @@ bool SideElement<Real>::add_end(CoverEnd<Real>& end, Real numerator, Real numera
   }
   if (!certain) {  // the touching point may lie inside the segment, as far as the errors allow
     const Real part = s.rise > 0 ? std::min<Real>(1, (numerator_error + s.d_error) / s.rise) : Real(1);
-    end.error += (absolute(s.d.x) + radius_) * part;
+    end.error += (absolute(s.d.x) + s.radius) * part;
   }
   end.label = instance_.circle(at_a ? s.vertex_a : s.vertex_b);
   end.label_certain = certain;
@@ -180,25 +182,27 @@ Covers<Real> SideElement<Real>::covered_by(Index site) const {
   s.site = site;
   s.vertex_a = ends.a;
   s.vertex_b = ends.b;
+  s.radius = instance_.site_radius(site);
   s.a = locate(ends.a);
   s.b = locate(ends.b);
   s.d = rotate(instance_.difference<Real>(ends.b, ends.a));
-  const Real size = absolute(s.a.x) + absolute(s.a.y) + absolute(s.b.x) + absolute(s.b.y) + 2 * radius_;
+  const Real size = absolute(s.a.x) + absolute(s.a.y) + absolute(s.b.x) + absolute(s.b.y) + 2 * std::max(radius_, s.radius);
   const Real e = relative_error_ * size + 4 * unseen_;
   s.coordinate_error = e;
-  if ((s.a.y > radius_ + e && s.b.y > radius_ + e) || (s.a.y < -radius_ - e && s.b.y < -radius_ - e)) return out;
+  const Real r = s.radius;
+  if ((s.a.y > r + e && s.b.y > r + e) || (s.a.y < -r - e && s.b.y < -r - e)) return out;
   s.span = length(s.d);
   s.d_error = relative_error_ * s.span + 2 * unseen_;
   s.cosine = s.d.x / s.span;
   s.cosine_error = 4 * s.d_error / s.span;
   s.rise = absolute(s.d.y);
   s.sigma = s.d.y >= 0 ? 1 : -1;
-  const Real numerator_error = radius_ * s.cosine_error + e;
+  const Real numerator_error = r * s.cosine_error + e;
   const Real shift = s.sigma * s.a.y;
   Cover<Real> cover;
   cover.site = site;
-  if (!add_end(cover.high, radius_ * s.cosine - shift, numerator_error, +1, s)) return out;
-  if (!add_end(cover.low, -radius_ * s.cosine - shift, numerator_error, -1, s)) return out;
+  if (!add_end(cover.high, r * s.cosine - shift, numerator_error, +1, s)) return out;
+  if (!add_end(cover.low, -r * s.cosine - shift, numerator_error, -1, s)) return out;
   out.add(cover);
   return out;
 }

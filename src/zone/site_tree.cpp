@@ -42,8 +42,10 @@ SiteTree::SiteTree(const Instance& instance, const Context& context) {
           if (child < count && below == nullptr) {
             const auto s = instance.site(Index(child));
             const Point a = instance.vertices()[s.a], b = instance.vertices()[s.b];
-            low_x = float_below(std::min(a.x, b.x)), high_x = float_above(std::max(a.x, b.x));
-            low_y = float_below(std::min(a.y, b.y)), high_y = float_above(std::max(a.y, b.y));
+            // Sought within the least radius, so wider cigars have wider boxes.
+            const double more = instance.site_radius(Index(child)) - instance.least_radius();
+            low_x = float_below(std::min(a.x, b.x) - more), high_x = float_above(std::max(a.x, b.x) + more);
+            low_y = float_below(std::min(a.y, b.y) - more), high_y = float_above(std::max(a.y, b.y) + more);
           } else if (child < count) {
             const Node& c = (*below)[child];
             low_x = *std::min_element(c.min_x, c.min_x + arity), high_x = *std::max_element(c.max_x, c.max_x + arity);

@@ -13,7 +13,7 @@
 namespace krepl::zone {
 
 /// A packed tree of bounding boxes, eight children a node, over the sites in their (Hilbert) order, in single precision
-/// rounded outwards: 18.3 bytes a site. At most 2^28 sites.
+/// rounded outwards: 18.3 bytes a site. At most 2^28 sites. A box is widened by what its site's radius exceeds the least.
 class SiteTree {
  public:
   /// Where sites are sought: within `reach` of the centre and within `margin` of the box. Made by region(), which adds

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "zone/varied_sites.hpp"
+
 namespace krepl {
 namespace {
 
@@ -24,19 +26,26 @@ double signed_angle(const Zone::Piece& arc) {
 
 double Zone::scale() const { return std::max(radius_, network_->extent()); }
 
+double Zone::least_radius() const { return varied_ ? varied_->least : radius_; }
+
 Zone::Piece Zone::local_piece(std::uint32_t e) const {
   if (!shaped_.empty()) return shaped_[e];
   const auto ring = std::upper_bound(ring_begin_.begin(), ring_begin_.end(), e);
   const std::uint32_t next = e + 1 < *ring ? e + 1 : *(ring - 1);
-  Piece p{Kind::segment, vertex_[e], vertex_[next], {}, 0, false};
+  Piece p{Kind::segment, vertex_[e], vertex_[next], {}, 0, false, radius_};
   const std::size_t sides = 2 * network_->segments().size();
   if (element_[e] < sides) {
     p.source = element_[e] / 2;
     p.reversed = element_[e] % 2 != 0;
+    if (varied_) p.radius = varied_->radius[varied_->segments[p.source].a];
   } else {
     p.kind = Kind::arc;
     p.source = std::uint32_t(element_[e] - sides);
     p.from_vertex = true;
+    if (varied_) {
+      p.radius = varied_->radius[p.source];
+      p.source = varied_->vertex[p.source];
+    }
     p.center = network_->vertices()[p.source];
   }
   return p;
@@ -68,7 +77,7 @@ double Zone::ring_area(std::uint32_t r) const {
     twice += (p.start.x - o.x) * (p.end.y - o.y) - (p.start.y - o.y) * (p.end.x - o.x);
     if (p.kind == Kind::arc) {
       const double angle = signed_angle(p);
-      twice += radius_ * radius_ * (angle - std::sin(angle));
+      twice += p.radius * p.radius * (angle - std::sin(angle));
     }
   }
   return twice / 2;
@@ -84,7 +93,7 @@ double Zone::perimeter() const {
   double sum = 0;
   for (std::uint32_t e = 0; e < piece_count(); ++e) {
     const Piece p = local_piece(e);
-    sum += p.kind == Kind::arc ? radius_ * std::abs(signed_angle(p)) : distance(p.start, p.end);
+    sum += p.kind == Kind::arc ? p.radius * std::abs(signed_angle(p)) : distance(p.start, p.end);
   }
   return sum;
 }
@@ -103,7 +112,7 @@ std::optional<std::string> Zone::validate() const {
     if (!std::isfinite(p.start.x) || !std::isfinite(p.start.y)) return complain("a vertex is not finite");
     if (p.kind == Kind::arc) {
       for (const Point q : {p.start, p.end}) {
-        if (!(std::abs(distance(q, p.center) - radius_) <= tolerance)) return complain("an arc misses its radius");
+        if (!(std::abs(distance(q, p.center) - p.radius) <= tolerance)) return complain("an arc misses its radius");
       }
       continue;
     }
@@ -116,7 +125,7 @@ std::optional<std::string> Zone::validate() const {
     for (const Point q : {p.start, p.end}) {
       const double off = (q.x - a.x) * uy - (q.y - a.y) * ux;
       // Where a polygon was shrunk the zone is on the other side.
-      if (!(std::abs((inward_ ? std::abs(off) : off) - radius_) <= tolerance)) return complain("a segment is off its offset line");
+      if (!(std::abs((inward_ ? std::abs(off) : off) - p.radius) <= tolerance)) return complain("a segment is off its offset line");
     }
     if ((p.end.x - p.start.x) * ux + (p.end.y - p.start.y) * uy < -tolerance) return complain("a segment runs backwards");
   }

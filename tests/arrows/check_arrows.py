@@ -9,7 +9,7 @@ from pathlib import Path
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 ROOM_CALL = re.compile(r"krepl_room\(\s*(\w+)(.*?)\)", re.S)
-SOURCE_SUFFIXES = {".cpp", ".hpp", ".h", ".inc"}
+SOURCE_SUFFIXES = {".c", ".cpp", ".hpp", ".h", ".inc"}
 # How headers of outside libraries are recognised; what matches none of these and has no "/" is standard or POSIX.
 LIBRARIES = [
     ("Boost", r"boost/"), ("oneTBB", r"(tbb|oneapi)/"), ("GDAL", r"(gdal|ogr|cpl_|vrt)\w*\.h$"), ("fmt", r"fmt/"),

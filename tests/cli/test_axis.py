@@ -59,7 +59,7 @@ class Axis(support.CliTest):
 class Engine(support.CliTest):
     def test_engines_agree_over_a_range_of_radii(self):
         wkt = "LINESTRING (0 0, 10 0, 10 10, 0 10, 0 0)\nLINESTRING (5 5, 20 5)\nPOLYGON ((30 0, 40 0, 40 9, 30 0))\nPOINT (-3 4)"
-        for engine in ("intervals", "voronoi", "auto"):
+        for engine in ("intervals", "voronoi", "sweep", "auto"):
             done = self.succeed("buffer", "-", "-", "--radius", "0.5:10:0.5,30", "--engine", engine, stdin=wkt)
             zones = [measure(line) for line in done.stdout.splitlines()]
             self.assertEqual(len(zones), 21)

@@ -88,8 +88,8 @@ class BadInput(support.CliTest):
 
     def test_arcs(self):
         self.bad_wkt("POINT (0 0)\nCIRCULARSTRING (0 0, 1 1, 2 0)\n",
-                     "arcs as input are not supported yet, line 2; turn them into lines first: "
-                     "ogr2ogr -nlt CONVERT_TO_LINEAR")
+                     "arcs as input are not supported, line 2; give --arc-error LENGTH for chords in their place that "
+                     "deviate by no more")
 
     def test_surfaces_in_space(self):
         self.bad_wkt("TIN (((0 0 0, 0 0 1, 0 1 0, 0 0 0)))\n",

@@ -236,6 +236,44 @@ class Height(support.CliTest):
                           "give one in the unit of the terrain",
                        "height", "flat.asc", "--radius", "1e200", "--at", "at.csv", "-o", "out.csv", output="out.csv")
 
+    def test_other_cutters(self):
+        """No sample of the triangles is inside the tool, and one of them is nearly touched."""
+        slope = 1 / math.tan(math.radians(30))
+        tools = {"ball:2": lambda r: 1 - math.sqrt(max(0, 1 - r * r)),
+                 "flat:2": lambda r: 0,
+                 "bull:2:0.25": lambda r: 0 if r < 0.75 else 0.25 - math.sqrt(max(0, 0.0625 - (r - 0.75) ** 2)),
+                 "cone:2:60": lambda r: slope * r,
+                 "taper:2:60:0.25": lambda r: (0.25 - math.sqrt(0.0625 - r * r) if r < 0.25 * math.cos(math.radians(30))
+                                               else slope * r - 0.25)}
+        self.write("t.asc", grid(ROWS, corner=(0, 0)))
+        places = [(1.0 + 0.97 * i, 1.2 + 0.83 * j) for i in range(5) for j in range(5)]
+        self.write("at.csv", "x,y\n" + "".join(f"{x},{y}\n" for x, y in places))
+        n = 16
+        samples = [tuple((a * i + b * j + c * (n - i - j)) / n for a, b, c in zip(*t))
+                   for t in triangles(ROWS, (0, 0)) for i in range(n + 1) for j in range(n + 1 - i)]
+        for tool, profile in tools.items():
+            self.succeed("height", "t.asc", "--tool", tool, "--at", "at.csv", "-o", "out.csv")
+            for (x, y), row in zip(places, csv.DictReader(io.StringIO(self.text("out.csv")))):
+                near = [(q[2], math.hypot(q[0] - x, q[1] - y)) for q in samples]
+                best = max(z - profile(r) for z, r in near if r <= 1)
+                with self.subTest(tool=tool, at=(x, y)):
+                    self.assertLessEqual(best, float(row["h"]) + 1e-9)
+                    self.assertGreater(best, float(row["h"]) - 0.6)  # the summit falls by 8 a unit
+                    q = (float(row["px"]), float(row["py"]), float(row["pz"]))
+                    rise = profile(min(1, math.hypot(q[0] - x, q[1] - y)))
+                    self.assertAlmostEqual(float(row["h"]), q[2] - rise, delta=1e-6)
+
+    def test_tools_that_are_wrong(self):
+        self.write("flat.asc", FLAT)
+        self.write("at.csv", "x,y\n1,1\n")
+        rest = ("--at", "at.csv", "-o", "out.csv")
+        either = "give either --radius or --tool; --radius R is the ball --tool ball:2R"
+        self.fail_with(2, either, "height", "flat.asc", *rest, output="out.csv")
+        self.fail_with(2, either, "height", "flat.asc", "--radius", "1", "--tool", "ball:2", *rest, output="out.csv")
+        self.fail_with(2, "the tool 'drill:3' is of no known kind; give ball:D, flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE or "
+                          "taper:D:ANGLE:TIP_RADIUS (D a diameter, ANGLE included, in degrees)",
+                       "height", "flat.asc", "--tool", "drill:3", *rest, output="out.csv")
+
     def test_missing_files(self):
         self.write("at.csv", "x,y\n1,1\n")
         done = self.krepl("height", "none.asc", "--radius", "1", "--at", "at.csv", "-o", "out.csv")

@@ -13,7 +13,7 @@ class Lab(support.CliTest):
 
     def test_list_names_every_experiment(self):
         text = self.succeed("lab", "list").stdout
-        for name in ("lower-bound", "profiles", "pseudospheres", "components", "conjecture", "search", "real"):
+        for name in ("lower-bound", "profiles", "sweep", "pseudospheres", "components", "conjecture", "search", "real"):
             self.assertIn(name, text)
             self.assertIn("--output", self.succeed("lab", name, "--help").stdout)
 
@@ -40,6 +40,16 @@ class Lab(support.CliTest):
             self.succeed("profile", terrain, "path.csv", "--radius", row["radius"])
             self.succeed("verify", "path.csv", "--against", terrain, "--radius", row["radius"])
             self.assertEqual(len(self.rows("path.csv")) - 1, int(row["vertices"]))
+
+    def test_sweep(self):
+        """The river that was written has the zone that the table says, by another engine."""
+        self.succeed("lab", "sweep", "--n", "6,20", "-o", "out")
+        for row in self.rows("out/sweep.csv"):
+            river = f"out/{row['kind']}-{row['n']}.wkt"
+            done = self.succeed("buffer", river, "zone.wkt", "--radius", 1, "--engine", "voronoi", "--verbose")
+            self.assertIn(f"{row['pieces']} pieces, ", done.stderr)
+        xml.parse(self.directory / "out/sweep.svg")
+        xml.parse(self.directory / "out/bundle-6.svg")
 
     def test_files(self):
         """JSON says what CSV says, pictures are XML, and nothing depends on the number of threads."""

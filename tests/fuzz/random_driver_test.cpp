@@ -24,5 +24,16 @@ TEST(FuzzRandom, EveryCaseIsSound) {
   std::printf("%d cases\n", cases);
 }
 
+TEST(FuzzRandom, EnginesAgree) {
+  std::mt19937_64 random(seed() + 1);
+  const int cases = int(800 * effort());
+  for (int i = 0; i < cases; ++i) {
+    std::vector<std::uint8_t> bytes(2 + random() % 60);
+    for (auto& b : bytes) b = std::uint8_t(random());
+    const auto fault = fuzz_engines(bytes);
+    ASSERT_FALSE(fault.has_value()) << "case " << i << ": " << *fault;
+  }
+}
+
 }  // namespace
 }  // namespace krepl::test

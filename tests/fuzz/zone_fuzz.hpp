@@ -11,4 +11,7 @@ namespace krepl::test {
 /// or nothing.
 std::optional<std::string> fuzz_zone(std::span<const std::uint8_t> bytes);
 
+/// The same case by sweep and by intervals: how the zones differ, or nothing.
+std::optional<std::string> fuzz_engines(std::span<const std::uint8_t> bytes);
+
 }  // namespace krepl::test

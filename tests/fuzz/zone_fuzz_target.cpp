@@ -5,7 +5,9 @@
 #include "fuzz/zone_fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (const auto fault = krepl::test::fuzz_zone({data, size})) {
+  auto fault = krepl::test::fuzz_zone({data, size});
+  if (!fault) fault = krepl::test::fuzz_engines({data, size});
+  if (fault) {
     std::fprintf(stderr, "%s\n", fault->c_str());
     std::abort();
   }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The installed package, seen by its users: installs a build into a temporary prefix, moves the prefix, then builds and
-# runs a consumer through find_package and through pkg-config, compiles every public header alone, and checks what the
-# library and the program depend on.
+# runs a consumer through find_package and through pkg-config, and one in C, compiles every public header alone, and
+# checks what the library and the program depend on.
 #
 # usage: test_install.sh BUILD_DIRECTORY COMPILER [COMPILER_FLAG...]
 set -euo pipefail
@@ -34,10 +34,22 @@ read -ra package < <(pkg-config --cflags --libs krepl)
 "$compiler" -std=c++20 "${flags[@]}" "$here/consumer/consumer.cpp" -o "$scratch/by_pkg_config" "${package[@]}"
 "$scratch/by_pkg_config"
 
+echo "example in C through pkg-config"
+"${CC:-cc}" -std=c99 -Wall -Wextra -Werror -pedantic-errors -c "$here/../../examples/05_zone_from_c.c" \
+  -I"$prefix/include" -o "$scratch/from_c.o"
+linker=${CC:-cc}  # a static library needs the C++ runtime, which the C++ compiler brings
+[ "${library##*.}" = so ] || linker=("$compiler" "${flags[@]}")
+"${linker[@]}" "$scratch/from_c.o" -o "$scratch/from_c" "${package[@]}" -lm
+"$scratch/from_c" | grep -qF "area 61780.972, boundary 1371.239" || fail "example in C"
+
 echo "public headers compile alone"
 for header in "$prefix"/include/krepl/*.hpp; do
   "$compiler" -std=c++20 -Wall -Wextra -Werror -fsyntax-only -I"$prefix/include" -x c++ - \
     <<<"#include <krepl/$(basename "$header")>" || fail "$header"
+done
+for standard in c89 c99; do
+  "${CC:-cc}" -std=$standard -Wall -Wextra -Werror -pedantic-errors -fsyntax-only -I"$prefix/include" -x c - \
+    <<<"#include <krepl/krepl.h>" || fail "krepl.h as $standard"
 done
 headers() { (cd "$1" && printf "%s\n" ./*); }
 [ "$(headers "$prefix/include/krepl")" = "$(headers "$here/../../include/krepl")" ] || fail "a header is missing"

@@ -103,6 +103,18 @@ TEST(LabLongLowerBound, GrowsAsTheSquare) {
   EXPECT_NEAR(result_named(*report, "islands: exponent in triangles"), 2.0, 0.05);
 }
 
+TEST(LabSweep, GrowsAsTheSquareWithoutRounds) {
+  const auto report = lab::sweep_experiment({12, 50, 200}, {});
+  ASSERT_TRUE(report) << report.error().text();
+  EXPECT_NEAR(result_named(*report, "bundle, one sweep: exponent of crossings"), 2.0, 0.1);
+  EXPECT_LT(result_named(*report, "bundle, in rounds: exponent of crossings"), 1.3);
+  EXPECT_LT(result_named(*report, "spread, one sweep: exponent of crossings"), 1.2);
+  ASSERT_EQ(report->table.rows.size(), 12u);
+  for (std::size_t row = 0; row < 6; ++row)  // pairs of cigars cross, and next to nothing of it is boundary
+    EXPECT_EQ(cell(*report, row, "pieces"), cell(*report, row, "n") + 3);
+  EXPECT_FALSE(lab::sweep_experiment({2}, {}));
+}
+
 TEST(LabProfiles, HitTheBoundsExactly) {
   const auto report = lab::profiles_experiment({2, 3, 10, 1000, 20000}, {});
   ASSERT_TRUE(report) << report.error().text();

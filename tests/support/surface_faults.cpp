@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <ctime>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -37,15 +38,18 @@ std::string amount(Long x) {
   return buffer;
 }
 
-/// Sets a flag after some seconds unless it is gone before. If the flag is not heeded, nothing but the case's text
-/// would help, so that is printed and the program ends.
+/// Sets a flag after some seconds of the process's own time, whatever else the machine does, unless it is gone before. If the
+/// flag is not heeded, nothing but the case's text would help, so that is printed and the program ends.
 class Alarm {
  public:
   Alarm(double seconds, const SmallTerrain& c)
       : thread_([this, seconds, &c] {
           std::unique_lock lock(mutex_);
           const auto gone = [&](double more) {
-            return wake_.wait_for(lock, std::chrono::duration<double>(more), [this] { return done_; });
+            for (const std::clock_t start = std::clock(); double(std::clock() - start) < more * CLOCKS_PER_SEC;) {
+              if (wake_.wait_for(lock, std::chrono::milliseconds(50), [this] { return done_; })) return true;
+            }
+            return false;
           };
           if (gone(seconds)) return;
           rung = true;

@@ -12,7 +12,7 @@ struct SurfaceEffort {
   int points = 5;       ///< along each edge
   int lines = 5;        ///< across the whole surface, each with a label and a height between every two curves
   unsigned seed = 1;    ///< of the lines' places
-  double seconds = 10;  ///< that computing may take
+  double seconds = 10;  ///< of processor time that computing may take
 };
 
 /// Computes the surface of a small case and says what is wrong with it, by brute force:
@@ -32,7 +32,7 @@ std::optional<std::string> fault_in(const Surface& surface, const SmallTerrain& 
 /// The smallest case found, by leaving out and lowering, that still is wrong; the case itself if it is only late.
 SmallTerrain minimised(SmallTerrain c, const SurfaceEffort& effort = {});
 
-/// The surface on one thread, cancelled after some seconds.
+/// The surface on one thread, cancelled after some seconds of processor time.
 Result<Surface> surface_within(const SmallTerrain& c, double seconds);
 
 /// What is wrong with the incremental engine's surface of the case, by brute force, or how it differs from the other

@@ -1,5 +1,6 @@
 #include "support/zone_case.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ostream>
@@ -40,12 +41,24 @@ std::string text(const ZoneCase& c) {
   }
   char radius[40];
   std::snprintf(radius, sizeof radius, ") R = %.17g", c.radius);
-  return t + radius;
+  t += radius;
+  for (const InputPart& part : c.parts) {
+    if (part.radius <= 0) continue;
+    std::snprintf(radius, sizeof radius, " %.17g", part.radius);
+    t += radius;
+  }
+  return t;
 }
 
-InputPart line(std::vector<Point> vertices) { return {std::move(vertices), false, -1}; }
-InputPart ring(std::vector<Point> vertices, std::int64_t feature) { return {std::move(vertices), true, feature}; }
-InputPart point(double x, double y) { return {{{x, y}}, false, -1}; }
+double largest_radius(const ZoneCase& c) {
+  double largest = 0;
+  for (const InputPart& part : c.parts) largest = std::max(largest, part.radius);
+  return largest > 0 ? largest : c.radius;
+}
+
+InputPart line(std::vector<Point> vertices) { return {std::move(vertices), false, -1, 0}; }
+InputPart ring(std::vector<Point> vertices, std::int64_t feature) { return {std::move(vertices), true, feature, 0}; }
+InputPart point(double x, double y) { return {{{x, y}}, false, -1, 0}; }
 
 Result<Network> network_of(const ZoneCase& c, const Context& context) {
   Network::Builder builder;
@@ -63,7 +76,13 @@ Result<Network> network_of(const ZoneCase& c, const Context& context) {
 Result<Zone> zone_of(const ZoneCase& c, const Context& context) {
   Result<Network> network = network_of(c, context);
   if (!network) return network.error();
-  return compute_zone(std::make_shared<const Network>(std::move(network).value()), ZoneOptions{c.radius}, context);
+  auto shared = std::make_shared<const Network>(std::move(network).value());
+  if (c.parts.front().radius <= 0) return compute_zone(std::move(shared), ZoneOptions{c.radius}, context);
+  std::vector<double> radii;
+  for (const InputPart& part : c.parts) {
+    if (!part.vertices.empty()) radii.push_back(part.radius);
+  }
+  return compute_zone(std::move(shared), radii, context);
 }
 
 namespace {
@@ -134,8 +153,8 @@ std::optional<std::string> difference_in_measures(const Zone& zone, const verify
 std::optional<std::string> fault_in(const Zone& zone, const ZoneCase& c, double effort) {
   if (const auto wrong = zone.validate()) return "not valid: " + *wrong;
   verify::ZoneCheckOptions options;
-  options.radius = c.radius, options.effort = effort;
-  const verify::Obstacle obstacle(c.parts);
+  options.radius = largest_radius(c), options.effort = effort;
+  const verify::Obstacle obstacle(c.parts, options.radius);
   const auto report = verify::check_zone(plain(zone), obstacle, options, Context{1, {}, nullptr});
   if (auto fault = fault_in(report)) return fault;
   return difference_in_measures(zone, *report, double(obstacle.resolution()));

@@ -16,9 +16,12 @@ using verify::InputPart;
 
 /// An input of a zone and its radius, for tests; can be written down and read again as text.
 struct ZoneCase {
-  std::vector<InputPart> parts;
+  std::vector<InputPart> parts;  ///< with radii of their own, all or none
   double radius = 1;
 };
+
+/// The case's radius, or the largest of its parts'.
+double largest_radius(const ZoneCase& c);
 
 /// The parts as one GEOMETRYCOLLECTION with 17 digits, and the radius: enough to repeat the case.
 std::string text(const ZoneCase& c);

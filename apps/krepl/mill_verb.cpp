@@ -1,0 +1,292 @@
+// krepl mill: tool paths as G-code.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "krepl/mill.hpp"
+#include "output/gcode_file.hpp"
+#include "output_target.hpp"
+#include "stopwatch.hpp"
+#include "terrain_options.hpp"
+#include "verbs.hpp"
+
+namespace krepl::app {
+
+namespace {
+
+struct MillVerbOptions {
+  TerrainOptions terrain;
+  std::string output, tool, strategy = "parallel", direction = "zigzag", post = "linuxcnc", unit = "mm",
+                            control_point = "tip";
+  std::string step_down, ramp_angle, stock_top, stock_margin;
+  std::string step_over, scallop, tolerance, allowance, angle, bottom, safe_height, clearance, feed, plunge_feed,
+      spindle;
+  int decimals = -1, tool_number = 1;
+  bool no_arcs = false;
+};
+
+struct MillPlan {
+  ParallelOptions parallel;  ///< of other strategies what they share with it
+  RoughOptions rough;
+  bool is_rough = false;
+  output::GcodeOptions gcode;
+  input::TerrainRequest request;
+};
+
+Error usage(std::string what, std::string remedy) { return {ErrorCode::usage, std::move(what), "", std::move(remedy)}; }
+
+/// Any finite number for an option.
+Result<double> parse_number(const char* option, const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value))
+    return usage(fmt::format("{} '{}' is not a finite number", option, text), "give one");
+  return value;
+}
+
+Status take(const char* option, const std::string& text, double& value, bool positive = true) {
+  if (text.empty()) return std::monostate{};
+  const Result<double> parsed = positive ? parse_positive(option, text) : parse_number(option, text);
+  if (!parsed) return parsed.error();
+  value = *parsed;
+  return std::monostate{};
+}
+
+/// KIND:DIAMETER.
+Status take_tool(const std::string& text, MillPlan& plan) {
+  const std::size_t colon = text.find(':');
+  const std::string kind = text.substr(0, colon);
+  if (colon == std::string::npos || kind != "ball")
+    return usage(fmt::format("tool '{}' is unknown", text), "give --tool ball:DIAMETER");
+  const Result<double> diameter = parse_positive("--tool ball:", text.substr(colon + 1));
+  if (!diameter) return diameter.error();
+  plan.parallel.tool.radius = *diameter / 2;
+  plan.gcode.tool_diameter = *diameter;
+  plan.gcode.tool_name = "ball-nose";
+  return std::monostate{};
+}
+
+template <class Value>
+Status choose(const char* option, const std::string& text, std::initializer_list<std::pair<const char*, Value>> choices,
+              Value& value) {
+  std::string names;
+  for (const auto& [name, meaning] : choices) {
+    if (text == name) {
+      value = meaning;
+      return std::monostate{};
+    }
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  return usage(fmt::format("{} '{}' is unknown", option, text), "give one of " + names);
+}
+
+/// Decimals, and what follows from the unit of length and the controller.
+Status take_post(const MillVerbOptions& o, MillPlan& plan) {
+  using output::GcodePost;
+  if (Status s =
+          choose("--post", o.post, {{"linuxcnc", GcodePost::linuxcnc}, {"grbl", GcodePost::grbl}}, plan.gcode.post);
+      !s)
+    return s;
+  if (Status s = choose("--unit", o.unit, {{"mm", false}, {"in", true}}, plan.gcode.inches); !s) return s;
+  MillAccuracy& a = plan.parallel.accuracy;
+  if (Status s = choose("--control-point", o.control_point,
+                        {{"tip", ControlPoint::tip}, {"centre", ControlPoint::centre}}, a.control_point);
+      !s)
+    return s;
+  plan.gcode.decimals = o.decimals >= 0 ? o.decimals : plan.gcode.inches ? 5 : 4;
+  a.unit = std::pow(10.0, -plan.gcode.decimals);
+  a.arcs = !o.no_arcs;
+  // GRBL cuts arcs as chords that are within 0.002 mm ($12) of them.
+  if (plan.gcode.post == GcodePost::grbl) a.arc_error = plan.gcode.inches ? 0.002 / 25.4 : 0.002;
+  if (a.control_point == ControlPoint::tip) plan.gcode.below_centre = plan.parallel.tool.radius;
+  a.tolerance = plan.gcode.inches ? 0.0004 : 0.01;
+  return take("--tolerance", o.tolerance, a.tolerance);
+}
+
+Status take_motion(const MillVerbOptions& o, MillPlan& plan) {
+  MillMotion& m = plan.parallel.motion;
+  if (plan.gcode.inches) m.feed = 40, m.plunge_feed = 12, m.rapid_feed = 200;
+  if (Status s = take("--feed", o.feed, m.feed); !s) return s;
+  if (o.plunge_feed.empty() && !o.feed.empty()) m.plunge_feed = m.feed / 3;
+  if (Status s = take("--plunge-feed", o.plunge_feed, m.plunge_feed); !s) return s;
+  if (Status s = take("--clearance", o.clearance, m.clearance); !s) return s;
+  if (Status s = take("--spindle", o.spindle, plan.gcode.spindle_speed); !s) return s;
+  double height = 0;
+  if (Status s = take("--safe-height", o.safe_height, height, false); !s) return s;
+  if (!o.safe_height.empty()) m.safe_height = height;
+  return std::monostate{};
+}
+
+/// An option that has no meaning for the strategy would be ignored in silence.
+Status check_meaning(const MillVerbOptions& o, bool rough) {
+  const auto refuse = [&](const char* option, const char* strategy) {
+    return usage(fmt::format("{} has no meaning for strategy {}", option, o.strategy),
+                 fmt::format("it belongs to {}", strategy));
+  };
+  for (const auto& [option, text] : {std::pair{"--step-down", &o.step_down},
+                                     {"--ramp-angle", &o.ramp_angle},
+                                     {"--stock-top", &o.stock_top},
+                                     {"--stock-margin", &o.stock_margin}})
+    if (!rough && !text->empty()) return refuse(option, "rough");
+  if (!rough) return std::monostate{};
+  if (!o.scallop.empty()) return refuse("--scallop", "parallel");
+  if (o.direction != "zigzag") return refuse("--direction", "parallel");
+  if (o.step_over.empty()) return usage("--step-over is not given", "give the distance of passes");
+  if (o.step_down.empty()) return usage("--step-down is not given", "give the distance of levels");
+  return std::monostate{};
+}
+
+Status take_rough(const MillVerbOptions& o, MillPlan& plan) {
+  const ParallelOptions& p = plan.parallel;
+  RoughOptions& r = plan.rough;
+  r.tool = p.tool, r.accuracy = p.accuracy, r.motion = p.motion, r.step_over = p.step_over, r.angle = p.angle,
+  r.bottom = p.bottom;
+  if (Status s = take("--step-down", o.step_down, r.step_down); !s) return s;
+  if (Status s = take("--ramp-angle", o.ramp_angle, r.ramp_angle); !s) return s;
+  if (Status s = take("--stock-margin", o.stock_margin, r.stock_margin, false); !s) return s;
+  double top = 0;
+  if (Status s = take("--stock-top", o.stock_top, top, false); !s) return s;
+  if (!o.stock_top.empty()) r.stock_top = top;
+  return std::monostate{};
+}
+
+Status take_passes(const MillVerbOptions& o, MillPlan& plan) {
+  ParallelOptions& p = plan.parallel;
+  if (Status s = take("--step-over", o.step_over, p.step_over); !s) return s;
+  if (Status s = take("--scallop", o.scallop, p.scallop); !s) return s;
+  if (p.step_over == 0 && p.scallop == 0)
+    return usage("neither --step-over nor --scallop is given", "give one of them");
+  if (p.step_over != 0 && p.scallop != 0) return usage("both --step-over and --scallop are given", "give one of them");
+  if (Status s = take("--angle", o.angle, p.angle, false); !s) return s;
+  if (Status s = take("--allowance", o.allowance, p.tool.allowance); !s) return s;
+  double bottom = 0;
+  if (Status s = take("--bottom", o.bottom, bottom, false); !s) return s;
+  if (!o.bottom.empty()) p.bottom = bottom;
+  return choose("--direction", o.direction, {{"zigzag", true}, {"one-way", false}}, p.zigzag);
+}
+
+Result<MillPlan> make_plan(const MillVerbOptions& o) {
+  MillPlan plan;
+  if (Status s = choose("--strategy", o.strategy, {{"parallel", false}, {"rough", true}}, plan.is_rough); !s)
+    return s.error();
+  if (Status s = check_meaning(o, plan.is_rough); !s) return s.error();
+  if (Status s = take_tool(o.tool, plan); !s) return s.error();
+  if (Status s = take_post(o, plan); !s) return s.error();
+  if (Status s = take_motion(o, plan); !s) return s.error();
+  if (Status s = take_passes(o, plan); !s) return s.error();
+  if (Status s = take_rough(o, plan); !s) return s.error();
+  plan.gcode.tool_number = o.tool_number;
+  plan.gcode.strategy = o.strategy;
+  const Result<input::TerrainRequest> request = terrain_request(o.terrain);
+  if (!request) return request.error();
+  plan.request = *request;
+  plan.gcode.part_name = std::filesystem::path(request->path).filename().string();
+  return plan;
+}
+
+void tell(const MillReport& r, std::size_t lines, const MillVerbOptions& o, const Stopwatch& total, Session& session) {
+  session.detail(fmt::format("curves     {} points above them, {} bodies looked at", r.curve_points, r.touches));
+  session.detail(fmt::format("passes     {}, {:.6g} apart, at {:.6g} degrees", r.passes, r.step_over, r.angle));
+  if (r.levels > 0)
+    session.detail(fmt::format("levels     {}; {} stretches are too short to be entered", r.levels, r.skipped_cuts));
+  if (r.sections > 0)
+    session.detail(
+        fmt::format("scallops   {} sections looked at, {} pieces of passes added, {} sections where more is left",
+                    r.sections, r.extra_passes, r.uneven_sections));
+  session.summary(
+      fmt::format(
+          "{} cuts: {} lines, {} arcs, {} rapid moves; {:.6g} {} cut, {:.6g} {} rapid, about {:.1f} min; {} lines of "
+          "G-code; {:.3f} s",
+          r.cuts, r.lines, r.arcs, r.rapids, r.cutting_length, o.unit, r.rapid_length, o.unit, r.minutes, lines,
+          total.seconds()),
+      o.output == "-");
+}
+
+int run_mill(const MillVerbOptions& options, Session& session) {
+  const Stopwatch total;
+  Result<MillPlan> plan = make_plan(options);
+  if (!plan) return session.fail("", plan.error());
+  if (Status target = check_target(options.output, {options.terrain.request.path}); !target)
+    return session.fail(options.output, target.error());
+  const Result<input::TerrainFile> file = input::read_terrain(plan->request, session.context("reading"));
+  if (!file) return session.fail(options.terrain.name(), file.error());
+  tell_terrain(*file, options.terrain.name(), total.seconds(), session);
+  const Stopwatch computing;
+  const Context context = session.context("milling");
+  const Result<MilledPath> milled = plan->is_rough ? mill_rough(file->terrain, plan->rough, context)
+                                                   : mill_parallel(file->terrain, plan->parallel, context);
+  if (!milled)
+    return session.fail(milled.error().code == ErrorCode::usage ? "" : options.terrain.name(), milled.error());
+  session.detail(fmt::format("path       {:.3f} s", computing.seconds()));
+  const Result<std::size_t> lines =
+      output::write_gcode(options.output, milled->path, plan->gcode, session.context("writing"));
+  if (!lines) return session.fail(output_name(options.output), lines.error());
+  tell(milled->report, *lines, options, total, session);
+  return 0;
+}
+
+void add_path_options(CLI::App& verb, MillVerbOptions& o) {
+  verb.add_option("--tool", o.tool, "Cutter: ball:DIAMETER")->required()->type_name("KIND:SIZE");
+  verb.add_option("--strategy", o.strategy,
+                  "parallel (default): passes in vertical planes; rough: out of a block, level by level")
+      ->type_name("NAME");
+  verb.add_option("--step-over", o.step_over, "Distance of passes")->type_name("LENGTH");
+  verb.add_option("--scallop", o.scallop, "Instead of it: greatest height of what is left between passes")
+      ->type_name("LENGTH");
+  verb.add_option("--angle", o.angle, "Direction of passes, degrees from the x axis (default: 0)")
+      ->type_name("DEGREES");
+  verb.add_option("--direction", o.direction, "zigzag (default) or one-way")->type_name("NAME");
+  verb.add_option("--tolerance", o.tolerance,
+                  "Greatest distance of the path above the exact one; it is never below (default: 0.01 mm, 0.0004 in)")
+      ->type_name("LENGTH");
+  verb.add_option("--allowance", o.allowance, "Stock to leave (default: none)")->type_name("LENGTH");
+  verb.add_option("--bottom", o.bottom,
+                  "Lowest Z of the tip; passes go there beside the part (default: the part's lowest place)")
+      ->type_name("Z");
+  verb.add_option("--step-down", o.step_down, "rough: greatest distance of levels")->type_name("LENGTH");
+  verb.add_option("--ramp-angle", o.ramp_angle, "rough: steepest way down into the stock (default: 3)")
+      ->type_name("DEGREES");
+  verb.add_option("--stock-top", o.stock_top, "rough: top of the block (default: the part's)")->type_name("Z");
+  verb.add_option("--stock-margin", o.stock_margin,
+                  "rough: by how much the block is larger than the part on all sides (default: 0)")
+      ->type_name("LENGTH");
+  verb.add_flag("--no-arcs", o.no_arcs, "Lines only");
+}
+
+void add_post_options(CLI::App& verb, MillVerbOptions& o) {
+  verb.add_option("--feed", o.feed, "Units a minute (default: 1000 mm, 40 in)")->type_name("F");
+  verb.add_option("--plunge-feed", o.plunge_feed, "Downwards (default: a third of the feed)")->type_name("F");
+  verb.add_option("--spindle", o.spindle, "Revolutions a minute (default: the program leaves the spindle alone)")
+      ->type_name("S");
+  verb.add_option("--safe-height", o.safe_height, "Z at the start and at the end (default: a radius above everything)")
+      ->type_name("Z");
+  verb.add_option("--clearance", o.clearance, "Of rapid moves above the part (default: half the tool's radius)")
+      ->type_name("LENGTH");
+  verb.add_option("--post", o.post, "Controller: linuxcnc (default) or grbl")->type_name("NAME");
+  verb.add_option("--unit", o.unit, "Unit of the part's coordinates and of the program: mm (default) or in")
+      ->type_name("UNIT");
+  verb.add_option("--decimals", o.decimals, "Of coordinates (default: 4 for mm, 5 for inches)")
+      ->check(CLI::Range(0, output::most_decimals))
+      ->type_name("N");
+  verb.add_option("--control-point", o.control_point, "What Z is the height of: tip (default) or centre of the ball")
+      ->type_name("NAME");
+  verb.add_option("--tool-number", o.tool_number, "T word (default: 1)")->check(CLI::Range(1, 99999))->type_name("N");
+}
+
+}  // namespace
+
+void add_mill_verb(CLI::App& program, Session& session) {
+  auto options = std::make_shared<MillVerbOptions>();
+  CLI::App* verb = program.add_subcommand("mill", "Tool paths that never cut into the part, as G-code");
+  add_terrain_options(*verb, options->terrain);
+  verb->add_option("OUT", options->output, "Result: G-code, or -")->required();
+  add_path_options(*verb, *options);
+  add_post_options(*verb, *options);
+  session.add_common_options(*verb);
+  session.on_run(*verb, [options, &session] { return run_mill(*options, session); });
+}
+
+}  // namespace krepl::app

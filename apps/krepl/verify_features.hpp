@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "feature_buffer.hpp"
+#include "verify/input_parts.hpp"
+#include "verify/zone_verifier.hpp"
+
+namespace krepl::app {
+
+/// Zones of features or groups to be checked one by one, or shares of owners.
+struct FeatureVerification {
+  std::string result;
+  verify::InputRequest input;
+  FeatureOptions features;
+  std::vector<double> radii;  ///< as given; none where the result tells them
+  double max_error = 0;
+  std::uint64_t samples = 0;
+};
+
+/// Prints one table of checks. Returns the exit status.
+int verify_features(const FeatureVerification& job, Session& session);
+
+/// A table of checks on standard output.
+void print_checks(Session& session, const std::vector<verify::Check>& checks);
+
+}  // namespace krepl::app

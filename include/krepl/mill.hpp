@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "krepl/context.hpp"
+#include "krepl/error.hpp"
+#include "krepl/terrain.hpp"
+#include "krepl/tool_path.hpp"
+
+namespace krepl {
+
+/// Which place of the tool the numbers of a post's Z mean.
+enum class ControlPoint { tip, centre };
+
+/// A ball-nose cutter and what is common to all strategies. Lengths are in the unit of the part's coordinates.
+struct MillTool {
+  double radius = 0;     ///< of the ball: finite and positive
+  double allowance = 0;  ///< stock left everywhere, measured normal to the surface: 0 or more
+};
+
+/// How exactly a path follows its surface, and where its numbers come to lie.
+///
+/// The path never cuts into the part (grown by the allowance): it stays above the sum of the part and the ball, and
+/// comes nowhere farther above it than the tolerance, measured normal to it. Between the places where heights are
+/// computed that is proven by bounds, not sampled. Ends of moves and centres of arcs are multiples of `unit`, as a post
+/// will write them, so that nothing is rounded afterwards; this takes 5.5 units and an eighth of the tolerance, up to a
+/// quarter more for passes that are not along x or y.
+struct MillAccuracy {
+  double tolerance = 0.01;  ///< at least 16 units
+  double unit = 1e-4;       ///< last decimal of the numbers; at least 2^-34 S, S the largest of extent and radius
+  ControlPoint control_point = ControlPoint::tip;  ///< of which Z is a multiple of the unit
+  bool arcs = true;                                ///< arcs in planes along x or y
+  /// How far inside of its arcs a controller's chords may be; arcs stay so far above the surface (GRBL: 0.002 mm).
+  double arc_error = 0;
+};
+
+/// Where and how fast the tool moves between cuts.
+struct MillMotion {
+  double feed = 1000, plunge_feed = 300;  ///< units a minute
+  double rapid_feed = 5000;               ///< for the estimate of time only
+  /// Height of the control point at the start, at the end and for moves over everything. Nothing given: the part's top,
+  /// or the lowest the tool gets to over it, and a radius more.
+  std::optional<double> safe_height;
+  double clearance = -1;  ///< of rapid links above what is below them; negative: half a radius
+};
+
+struct ParallelOptions {
+  MillTool tool;
+  MillAccuracy accuracy;
+  MillMotion motion;
+  /// Distance of neighbouring passes in the plane, or, if 0, from `scallop`.
+  double step_over = 0;
+  /// Greatest height of what is left between passes, tolerance included. Where the surface is steep across the passes
+  /// or hollow, gaps are halved, up to four times, until it holds in cross-sections half a pass distance apart; what
+  /// then remains (next to walls and in sharp valleys along the passes) is counted in the report.
+  double scallop = 0;
+  double angle =
+      0;  ///< of the passes, degrees counter-clockwise from +x; turned a little (report) to meet places of few decimals
+  bool zigzag = true;  ///< else all passes run one way
+  /// The tip never goes below it. Nothing given: the part's lowest place; then passes are cut only where the ball
+  /// touches the part.
+  std::optional<double> bottom;
+};
+
+/// What a tool path consists of.
+struct MillReport {
+  std::size_t passes = 0, cuts = 0, lines = 0, arcs = 0, rapids = 0;
+  double cutting_length = 0, rapid_length = 0;
+  double minutes = 0;               ///< without accelerations
+  std::size_t curve_points = 0;     ///< of the polylines above the drive curves that moves were fitted to
+  std::uint64_t touches = 0;        ///< evaluations of a triangle's sum with the ball
+  std::size_t levels = 0;           ///< of roughing
+  std::size_t skipped_cuts = 0;     ///< of roughing: stretches of passes too short to be entered
+  double step_over = 0;             ///< used
+  std::size_t extra_passes = 0;     ///< parts of passes between others, for the sake of the scallop
+  std::size_t sections = 0;         ///< across the passes, looked at for that
+  std::size_t uneven_sections = 0;  ///< of them, where the scallop is exceeded
+  double angle = 0;                 ///< used, degrees
+};
+
+struct MilledPath {
+  ToolPath path;  ///< the control point is the ball's centre; coordinates are absolute
+  MillReport report;
+};
+
+/// Parallel finishing passes with a ball: over the part's plan and a radius beyond, each pass in a vertical plane
+/// (docs/mill.md).
+///
+/// Passes along x or y consist of lines and arcs (planes ZX, YZ), others of lines. Between cuts the tool goes straight
+/// up, level, and straight down again, above everything on the way. The same path for any number of threads.
+///
+/// Errors: an option out of its range (usage); unit or radius too fine for the coordinates; a safe height below the
+/// part; no place that the ball touches; cancelled. Expected time proportional to the number of moves' pieces.
+Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const ParallelOptions& options,
+                                 const Context& context = {});
+
+struct RoughOptions {
+  MillTool tool;  ///< with the stock that finishing is to take off as its allowance
+  MillAccuracy accuracy;
+  MillMotion motion;
+  double step_over = 0;   ///< distance of neighbouring passes
+  double step_down = 0;   ///< greatest distance of levels
+  double angle = 0;       ///< of the passes, as ParallelOptions has it
+  double ramp_angle = 3;  ///< steepest way down into the stock, degrees, above 0 and below 90
+  /// The stock is a block: the part's bounding rectangle and `stock_margin` on all sides, up to `stock_top` (nothing
+  /// given: the part's top).
+  double stock_margin = 0;
+  std::optional<double> stock_top;
+  /// Of the lowest level, of the tip. Nothing given: the part's lowest place and the allowance.
+  std::optional<double> bottom;
+};
+
+/// Roughing by levels: takes a part out of a block of stock. On every level, from the top, the places where the tool
+/// does not touch the part (grown by the allowance) are cut in parallel passes; neighbouring passes make up regions
+/// that are cut without lifting the tool.
+///
+/// A region is entered from outside of the stock if one of its passes gets there, else by a ramp along its first pass.
+/// Regions with no pass longer than the tool's radius, or as long as the ramp needs, are left to finishing and counted.
+/// Above the levels the tool moves at the safe height, which is above the stock. All on lattice points of levels that
+/// are lattice heights: nothing is fitted, moves between the ends of passes are proven free by the same bounds as those
+/// of mill_parallel.
+///
+/// Errors: as mill_parallel; a step down or ramp angle out of its range.
+Result<MilledPath> mill_rough(std::shared_ptr<const Terrain> part, const RoughOptions& options,
+                              const Context& context = {});
+
+}  // namespace krepl

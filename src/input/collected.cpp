@@ -1,0 +1,76 @@
+#include "input/collected.hpp"
+
+#include <fmt/format.h>
+
+#include "ogr/spatial_reference.hpp"
+
+namespace krepl::input {
+
+Result<Collected> collect(GeometrySource& source, double arc_error, const Context& context, const Seen& seen) {
+  Collected all;
+  all.parts.arc_error = arc_error;
+  for (std::size_t count = 0;; ++count) {
+    if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while reading", "", ""};
+    if (context.progress && count % 256 == 0) context.progress(source.fraction());
+    auto item = source.next();
+    if (!item) return item.error();
+    if (!item->has_value()) break;
+    const GeometrySource::Item& record = **item;
+    if (record.geometry == nullptr || record.geometry->IsEmpty()) {
+      ++all.without_geometry;
+      continue;
+    }
+    ++all.with_geometry;
+    Status added = all.parts.add(*record.geometry, record.number, source.place(record.number));
+    if (!added) return added.error();
+    if (seen) seen(record, all.parts.size());
+  }
+  return all;
+}
+
+Error nothing_found(const NetworkRequest& request, const Collected& found) {
+  if (!request.where.empty() && found.without_geometry == 0) {
+    return {ErrorCode::input, "no feature satisfies --where '" + request.where + "'", "", "check the condition"};
+  }
+  if (found.without_geometry > 0) {
+    return {ErrorCode::input, "all features have an empty geometry", "", "give lines, polygons or points"};
+  }
+  return {ErrorCode::input, "has no features", "", "give lines, polygons or points"};
+}
+
+std::vector<std::string> notes_on(const Collected& all, const GeometrySource& source) {
+  std::vector<std::string> notes = source.notes();
+  if (all.without_geometry > 0) {
+    notes.push_back("note: " + std::to_string(all.without_geometry) + " features without geometry are left out");
+  }
+  if (all.parts.arcs > 0) {
+    notes.push_back(fmt::format("note: chords stand for {} arcs and deviate by {:.3g} at most; what is made of them "
+                                "is off by as much", all.parts.arcs, all.parts.arc_deviation));
+  }
+  if (all.parts.has_height) notes.emplace_back("note: Z and M values are left out");
+  return notes;
+}
+
+Result<std::optional<OGRSpatialReference>> crs_of_data(const NetworkRequest& request, const GeometrySource& source) {
+  if (request.crs.empty()) return source.crs();
+  Result<OGRSpatialReference> assigned = ogr::parse_crs(request.crs);
+  if (!assigned) return assigned.error();
+  return std::optional<OGRSpatialReference>(*assigned);
+}
+
+void add_part(Network::Builder& builder, const Parts& parts, std::size_t i, std::int64_t feature) {
+  std::span<const Point> vertices(parts.points.data() + parts.begin[i], parts.begin[i + 1] - parts.begin[i]);
+  switch (parts.kind[i]) {
+    case Parts::Kind::line: builder.add_line(vertices, feature); break;
+    case Parts::Kind::ring: builder.add_ring(vertices, feature); break;
+    case Parts::Kind::point: builder.add_point(vertices.front(), feature); break;
+  }
+}
+
+Result<Network> build_network(const Parts& parts, const Context& context) {
+  Network::Builder builder;
+  for (std::size_t i = 0; i < parts.size(); ++i) add_part(builder, parts, i, parts.feature[i]);
+  return std::move(builder).build(context);
+}
+
+}  // namespace krepl::input

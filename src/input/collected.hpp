@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "input/geometry_source.hpp"
+#include "input/network_reader.hpp"
+#include "input/parts.hpp"
+
+namespace krepl::input {
+
+/// What readers of lines, rings and points share.
+struct Collected {
+  Parts parts;
+  std::size_t with_geometry = 0, without_geometry = 0;
+};
+
+/// All geometries of a source, chords within `arc_error` for arcs; `seen` is called for each that is not empty, with the number of parts there are with it.
+using Seen = std::function<void(const GeometrySource::Item&, std::size_t parts)>;
+Result<Collected> collect(GeometrySource& source, double arc_error, const Context& context, const Seen& seen = {});
+
+/// Why there is no part at all.
+Error nothing_found(const NetworkRequest& request, const Collected& found);
+
+/// What the user should know about what was read: features and heights left out, chords for arcs, what the reader of the format loses.
+std::vector<std::string> notes_on(const Collected& all, const GeometrySource& source);
+
+/// The coordinate system the data have: the one that the request assigns, else the file's.
+Result<std::optional<OGRSpatialReference>> crs_of_data(const NetworkRequest& request, const GeometrySource& source);
+
+/// The parts as a network.
+Result<Network> build_network(const Parts& parts, const Context& context);
+/// Adds part i to a network, as one of this feature.
+void add_part(Network::Builder& builder, const Parts& parts, std::size_t i, std::int64_t feature);
+
+}  // namespace krepl::input

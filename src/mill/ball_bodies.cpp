@@ -1,0 +1,113 @@
+#include "mill/ball_bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace krepl::mill {
+
+using drop::Part;
+
+bool BallBodies::list(const Line& line, double from, double to, double floor, bool all) {
+  line_ = line;
+  if (search_.list(line.at(from), line.at(to), floor, parts_)) return true;
+  if (!all) return false;
+  search_.list_all(line.at(from), line.at(to), parts_);
+  return true;
+}
+
+/// The plan of the sum is the triangle's plan (+) disk: the line runs in and out over the disk about a corner or the
+/// strip beside an edge.
+Interval BallBodies::domain(std::size_t body) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Interval all{infinity, -infinity};
+  const auto add = [&](double low, double high) {
+    if (low > high) return;
+    all.low = std::min(all.low, low), all.high = std::max(all.high, high);
+  };
+  const Part& part = parts_[body];
+  double along[3], aside[3];
+  for (unsigned i = 0; i < 3; ++i) {
+    const double x = part.corner[i].x - line_.origin.x, y = part.corner[i].y - line_.origin.y;
+    along[i] = x * line_.direction.x + y * line_.direction.y;
+    aside[i] = y * line_.direction.x - x * line_.direction.y;
+    const double under = squared_ - aside[i] * aside[i];
+    if (under < 0) continue;
+    const double half = std::sqrt(under);
+    add(along[i] - half, along[i] + half);
+  }
+  for (unsigned i = 0; i < 3; ++i) {
+    const unsigned j = i == 2 ? 0 : i + 1;
+    // In coordinates along and across the line: places (t, 0) with a foot on the edge, within R of it.
+    const double u = along[j] - along[i], v = aside[j] - aside[i], squared = u * u + v * v;
+    if (squared == 0) continue;
+    const double length = std::sqrt(squared);
+    // foot * length = ((t - along) u - aside v) in [0, squared]; distance = |(t - along) v + aside u| / length <= R.
+    double low = -infinity, high = infinity;
+    const auto clip = [&](double factor, double least, double most) {  // least <= (t - along) factor <= most
+      if (factor == 0) {
+        if (least > 0 || most < 0) low = infinity;
+        return;
+      }
+      const double p = along[i] + least / factor, q = along[i] + most / factor;
+      low = std::max(low, std::min(p, q)), high = std::min(high, std::max(p, q));
+    };
+    clip(u, aside[i] * v, aside[i] * v + squared);
+    clip(v, -radius_ * length - aside[i] * u, radius_ * length - aside[i] * u);
+    add(low, high);
+  }
+  return all;
+}
+
+/// The same steps as in the drop cutter's search, for one triangle.
+Touch BallBodies::at(std::size_t body, double t) const {
+  const Part& p = parts_[body];
+  const Point place = line_.at(t);
+  const drop::Ball ball{place, radius_, squared_};
+  const Point d = line_.direction;
+  drop::FaceTouch face;
+  if (!p.vertical) face = drop::touch_face(p.corner[0], p.corner[1], p.corner[2], ball);
+  Point3 touched{};
+  double height = drop::nothing;
+  if (face.beyond == 0) {
+    height = face.height;
+    const Point3 a = p.corner[0], b = p.corner[1], c = p.corner[2];
+    touched = {a.x + face.v * (b.x - a.x) + face.w * (c.x - a.x), a.y + face.v * (b.y - a.y) + face.w * (c.y - a.y),
+               a.z + face.v * (b.z - a.z) + face.w * (c.z - a.z)};
+  } else {
+    unsigned corners = 0;
+    for (unsigned i = 0; i < 3; ++i) {
+      if ((face.beyond & (1u << i)) == 0) continue;
+      const unsigned next = i == 2 ? 0 : i + 1;
+      const unsigned a = p.vertex[i] < p.vertex[next] ? i : next, b = a ^ i ^ next;
+      const drop::EdgeTouch edge = drop::touch_edge(p.corner[a], p.corner[b], ball);
+      if (edge.height > height) {
+        height = edge.height;
+        const Point3 q = p.corner[a], r = p.corner[b];
+        touched = {q.x + edge.along * (r.x - q.x), q.y + edge.along * (r.y - q.y), q.z + edge.along * (r.z - q.z)};
+      }
+      if (edge.ends & 1) corners |= 1u << a;
+      if (edge.ends & 2) corners |= 1u << b;
+    }
+    for (unsigned i = 0; i < 3; ++i) {
+      if ((corners & (1u << i)) == 0) continue;
+      const double h = drop::touch_vertex(p.corner[i], ball).height;
+      if (h > height) height = h, touched = p.corner[i];
+    }
+  }
+  // The normal points from the touched point to the centre.
+  const double across = (place.x - touched.x) * d.x + (place.y - touched.y) * d.y;
+  return {height, -across / (height - touched.z)};
+}
+
+double BallBodies::top_of_narrow(std::size_t body, double width) const {
+  const Part& p = parts_[body];
+  // The distance in the plane changes no faster than the place: it is R at both ends, so at least R - width / 2
+  // between.
+  const double reach = std::max(0.0, radius_ - width / 2);
+  return std::max({p.corner[0].z, p.corner[1].z, p.corner[2].z}) + std::sqrt(squared_ - reach * reach);
+}
+
+double BallBodies::stretch() const { return 0.5 * std::sqrt(radius_ * std::min(search_.cell(), 4 * radius_)); }
+
+}  // namespace krepl::mill

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "krepl/drop_cutter.hpp"
+#include "krepl/mill.hpp"
+#include "mill/line_bodies.hpp"
+
+namespace krepl::mill {
+
+/// Moves at the feed without a break, from `start`; absolute coordinates of the ball's centre.
+struct Cut {
+  Point3 start;
+  std::vector<Move> moves;
+  Point3 end() const { return moves.empty() ? start : moves.back().end; }
+};
+
+/// How cuts are put together.
+struct LinkOptions {
+  double safe_height;  ///< of the ball's centre, above everything
+  double clearance;    ///< of rapid moves
+  double feed, plunge_feed;
+  double short_link;  ///< links up to this length are taken at the feed, without clearance
+  double floor;       ///< relative to the part's origin, of the ball's centre
+  double unit, z0;    ///< heights are z0 + k unit
+};
+
+/// One path of all cuts in their order. Links go straight up, level and straight down; level parts are above the
+/// highest place of the cutter's surface (proven by bounds) below them.
+Result<ToolPath> link_cuts(const DropCutter& cutter, std::vector<Cut>&& cuts, const LinkOptions& options,
+                           const Context& context);
+
+}  // namespace krepl::mill

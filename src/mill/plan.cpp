@@ -1,0 +1,104 @@
+#include "mill/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/radius_check.hpp"
+
+namespace krepl::mill {
+
+Error usage(const std::string& what, const std::string& remedy) { return {ErrorCode::usage, what, "", remedy}; }
+
+bool is_positive(double x) { return std::isfinite(x) && x > 0; }
+
+namespace {
+
+constexpr double gentle = 0.9;  // the cosine of 26 degrees
+
+Status check(const ParallelOptions& o) {
+  if (!is_positive(o.tool.radius))
+    return usage("the tool's radius is not a finite number greater than zero", "give one in the unit of the part");
+  if (!std::isfinite(o.tool.allowance) || o.tool.allowance < 0)
+    return usage("the allowance is not a finite number of zero or more", "");
+  if (!is_positive(o.accuracy.unit))
+    return usage("the unit of coordinates is not a finite number greater than zero", "");
+  if (!is_positive(o.accuracy.tolerance)) return usage("the tolerance is not a finite number greater than zero", "");
+  if (o.accuracy.tolerance < 16 * o.accuracy.unit + 2 * o.accuracy.arc_error)
+    return usage("the tolerance " + shown(o.accuracy.tolerance) + " is too small for numbers that are multiples of " +
+                     shown(o.accuracy.unit),
+                 "use at least " + shown(16 * o.accuracy.unit + 2 * o.accuracy.arc_error) + ", or more decimals");
+  if (!is_positive(o.motion.feed) || !is_positive(o.motion.plunge_feed) || !is_positive(o.motion.rapid_feed))
+    return usage("a feed is not a finite number greater than zero", "give units a minute");
+  if (!std::isfinite(o.angle)) return usage("the angle is not a finite number", "give degrees");
+  if ((o.step_over != 0) == (o.scallop != 0))
+    return usage("there is not one of step-over and scallop height", "give one of them");
+  if (o.step_over != 0 && !is_positive(o.step_over))
+    return usage("the step-over is not a finite number greater than zero", "");
+  if (o.scallop != 0 && !(is_positive(o.scallop) && o.scallop <= o.tool.radius / 2))
+    return usage("the scallop height is not between 0 and half the tool's radius", "");
+  if (o.scallop != 0 && o.scallop <= 1.25 * o.accuracy.tolerance)
+    return usage(
+        "the scallop height " + shown(o.scallop) + " leaves no room for the tolerance " + shown(o.accuracy.tolerance),
+        "use a tolerance of at most " + shown(o.scallop / 1.25));
+  return std::monostate{};
+}
+
+/// Two balls of radius R at distance w leave a ridge of R - sqrt(R^2 - w^2 / 4) on a plane along the passes. Somewhat
+/// less, so that gentle slopes across them need no further passes.
+double step_over_of(const ParallelOptions& o) {
+  if (o.step_over != 0) return o.step_over;
+  const double height = o.scallop - o.accuracy.tolerance, radius = o.tool.radius + o.tool.allowance;
+  return gentle * 2 * std::sqrt(2 * radius * height - height * height);
+}
+
+}  // namespace
+
+Result<Plan> make_plan(const Terrain& part, const ParallelOptions& o) {
+  if (Status checked = check(o); !checked) return checked.error();
+  const MillAccuracy& a = o.accuracy;
+  Plan plan;
+  plan.radius = o.tool.radius + o.tool.allowance + 2 * a.unit;
+  if (a.unit < 0x1p-34 * std::max({part.extent(), plan.radius, std::abs(part.origin().x), std::abs(part.origin().y)}))
+    return usage("numbers that are multiples of " + shown(a.unit) + " are too fine for the part's coordinates",
+                 "use fewer decimals");
+  plan.accuracy = a.tolerance / 8;
+  plan.band = a.tolerance - plan.accuracy - 4.5 * a.unit - a.arc_error;
+  const Point3 origin = part.origin(), low = part.lowest(), high = part.highest();
+  plan.tip = a.control_point == ControlPoint::tip ? o.tool.radius : 0;
+  plan.z0 = plan.tip - origin.z;
+  plan.floor = o.bottom ? *o.bottom + o.tool.radius - origin.z : low.z + plan.radius;
+  const double top = std::max(high.z + plan.radius, plan.floor) + origin.z;
+  const double height = o.motion.safe_height ? *o.motion.safe_height + plan.tip : top + o.tool.radius;
+  plan.safe = std::ceil((height - plan.tip) / a.unit) * a.unit + plan.tip;
+  if (plan.safe < top)
+    return usage(
+        "the safe height " + shown(*o.motion.safe_height) + " is below the highest place of the tool over the part",
+        "use at least " + shown(top - plan.tip));
+  plan.step_over = step_over_of(o);
+  if (plan.step_over < 4 * a.unit)
+    return usage("the step-over " + shown(plan.step_over) + " is too fine for the numbers' decimals", "");
+  if (plan.step_over < 1e-6 * part.extent())
+    return usage("the step-over " + shown(plan.step_over) + " means more than a million passes", "use a larger one");
+  return plan;
+}
+
+void measure(const ToolPath& path, const MillMotion& motion, MillReport& report) {
+  Point3 at = path.start;
+  for (const Move& m : path.moves) {
+    const bool arc = m.kind == MoveKind::clockwise || m.kind == MoveKind::counter_clockwise;
+    double length = std::hypot(m.end.x - at.x, m.end.y - at.y, m.end.z - at.z);
+    if (arc) {
+      const double radius = m.plane == ArcPlane::zx   ? std::hypot(at.x - m.centre.x, at.z - m.centre.z)
+                            : m.plane == ArcPlane::yz ? std::hypot(at.y - m.centre.y, at.z - m.centre.z)
+                                                      : std::hypot(at.x - m.centre.x, at.y - m.centre.y);
+      length = 2 * radius * std::asin(std::min(1.0, length / (2 * radius)));
+    }
+    if (m.kind == MoveKind::rapid)
+      ++report.rapids, report.rapid_length += length, report.minutes += length / motion.rapid_feed;
+    else
+      ++(arc ? report.arcs : report.lines), report.cutting_length += length, report.minutes += length / m.feed;
+    at = m.end;
+  }
+}
+
+}  // namespace krepl::mill

@@ -1,0 +1,116 @@
+"""Arcs of the input: refused, or chords within --arc-error in their place, told on standard error."""
+import math
+import re
+
+import support
+
+PI = math.pi
+R, ERROR = 2.0, 1e-6
+ROOT = math.sqrt(0.5)
+HALF = "CIRCULARSTRING (0 0, 10 10, 20 0)"
+CIRCLE = "CIRCULARSTRING (0 0, 20 0, 0 0)"
+# A stadium: half circles of radius 5 at both ends of a rectangle.
+STADIUM = "COMPOUNDCURVE ((0 0, 20 0), CIRCULARSTRING (20 0, 25 5, 20 10), (20 10, 0 10), CIRCULARSTRING (0 10, -5 5, 0 0))"
+
+
+class Arcs(support.CliTest):
+    def zone(self, wkt, *options, error=ERROR):
+        self.write("in.wkt", wkt + "\n")
+        done = self.succeed("buffer", "in.wkt", "out.wkt", "--radius", R, "--arc-error", error, *options)
+        return support.measure(self.text("out.wkt")), done.stderr
+
+    def expect_area(self, wkt, area, length, arcs, error=ERROR):
+        """Chords lie on the inner side of an arc, so that the zone is off by `error` times its boundary at most."""
+        zone, note = self.zone(wkt, error=error)
+        self.assertAlmostEqual(zone.area, area, delta=error * length)
+        told = re.search(r"note: chords stand for (\d+) arcs and deviate by (\S+) at most", note)
+        self.assertEqual(int(told[1]), arcs)
+        self.assertLessEqual(float(told[2]), error)
+        self.assertGreater(float(told[2]), error / 4)
+        return zone
+
+    def test_every_type(self):
+        half, stadium = PI * (144 - 64) / 2 + PI * R * R, 200 + 25 * PI + (40 + 10 * PI) * R + PI * R * R
+        ring, disk = PI * (144 - 64), PI * 144
+        for wkt, area, arcs in (
+                (HALF, half, 1),
+                (f"MULTICURVE ({HALF}, (100 0, 110 0))", half + 10 * 2 * R + PI * R * R, 1),
+                (CIRCLE, ring, 1),
+                (f"CURVEPOLYGON ({CIRCLE})", disk, 1),
+                (f"CURVEPOLYGON ({STADIUM})", stadium, 2),
+                (f"CURVEPOLYGON ({CIRCLE}, CIRCULARSTRING (5 0, 15 0, 5 0))", disk - PI * 9, 2),
+                (f"MULTISURFACE (CURVEPOLYGON ({CIRCLE}), ((100 0, 101 0, 101 1, 100 0)))", disk + 0.5 + (2 + 2 * ROOT) * R + PI * R * R, 1),
+                (f"GEOMETRYCOLLECTION ({HALF}, POINT (100 0))", half + PI * R * R, 1),
+                ("COMPOUNDCURVE ((-10 0, 0 0), CIRCULARSTRING (0 0, 10 10, 20 0, 30 -10, 40 0))", None, 2)):
+            with self.subTest(wkt=wkt):
+                if area is None:
+                    self.assertEqual(self.zone(wkt)[0].polygons, 1)
+                else:
+                    self.expect_area(wkt, area, 400, arcs)
+
+    def test_finer_and_coarser(self):
+        half = PI * (144 - 64) / 2 + PI * R * R
+        for error in (0.5, 1e-2, 1e-4, 1e-7):
+            with self.subTest(error=error):
+                self.expect_area(HALF, half, 100, 1, error)
+
+    def test_arcs_run_both_ways_share_their_chords(self):
+        left = "CURVEPOLYGON (COMPOUNDCURVE ((0 10, -20 0, 0 -10), CIRCULARSTRING (0 -10, 3 0, 0 10)))"
+        right = "CURVEPOLYGON (COMPOUNDCURVE (CIRCULARSTRING (0 10, 3 0, 0 -10), (0 -10, 20 0, 0 10)))"
+        zone, text = self.zone(left + "\n" + right, "--verbose")
+        self.assertEqual((zone.polygons, zone.holes), (1, 0))
+        self.assertAlmostEqual(zone.area, 400 + 4 * math.hypot(20, 10) * R + PI * R * R, places=6)
+        segments = int(re.search(r"(\d+) segments", text)[1])
+        dropped = int(re.search(r"(\d+) duplicate segments dropped", text)[1])
+        self.assertEqual(segments, dropped + 4)
+
+    def test_three_points_on_a_line_are_no_arc(self):
+        zone, note = self.zone("CIRCULARSTRING (0 0, 5 0, 10 0)")
+        self.assertAlmostEqual(zone.area, 10 * 2 * R + PI * R * R, places=9)
+        self.assertNotIn("chords", note)
+
+    def test_straight_curve_types_need_no_option(self):
+        self.write("in.wkt", "CURVEPOLYGON ((0 0, 10 0, 10 10, 0 0))\nCOMPOUNDCURVE ((0 0, 10 0), (10 0, 20 5))\n")
+        self.succeed("buffer", "in.wkt", "out.wkt", "--radius", R)
+
+    def test_geopackage(self):
+        self.need("ogr2ogr")
+        self.write("in.csv", f'id,wkt\n1,"CURVEPOLYGON ({STADIUM})"\n')
+        self.ogr("ogr2ogr", "in.gpkg", "in.csv", "-oo", "GEOM_POSSIBLE_NAMES=wkt", "-oo", "KEEP_GEOM_COLUMNS=NO",
+                 "-nlt", "CURVEPOLYGON", "-a_srs", "EPSG:25832")
+        self.fail_with(1, "in.gpkg: arcs as input are not supported, feature 1; give --arc-error LENGTH for chords in "
+                       "their place that deviate by no more", "buffer", "in.gpkg", "out.wkt", "--radius", R, output="out.wkt")
+        self.succeed("buffer", "in.gpkg", "out.wkt", "--radius", R, "--arc-error", ERROR)
+        self.assertAlmostEqual(support.measure(self.text("out.wkt")).area,
+                               200 + 25 * PI + (40 + 10 * PI) * R + PI * R * R, delta=ERROR * 100)
+
+    def test_verify(self):
+        self.zone(HALF, error=1e-3)
+        self.succeed("verify", "out.wkt", "--against", "in.wkt", "--radius", R, "--arc-error", 1e-3)
+        done = self.krepl("verify", "out.wkt", "--against", "in.wkt", "--radius", R)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("arcs as input are not supported", done.stderr)
+
+    def test_other_verbs(self):
+        self.write("in.wkt", HALF + "\n")
+        self.succeed("offset", "in.wkt", "out.wkt", "--distance", "-3", "--arc-error", 1e-4)
+        length = sum(math.dist(*p) if len(p) == 2 else support.piece_measure(p)[0]
+                     for p in support.Parser(self.text("out.wkt")).curve())
+        self.assertIn(round(length, 1), (round(7 * PI, 1), round(13 * PI, 1)))
+
+    def test_bad_lengths(self):
+        self.write("in.wkt", HALF + "\n")
+        for text, wrong in (("0", "is zero"), ("-1", "is negative"), ("fine", "is not a number")):
+            done = self.krepl("buffer", "in.wkt", "out.wkt", "--radius", R, f"--arc-error={text}")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"--arc-error '{text}' {wrong}", done.stderr)
+            self.assertEqual(self.files(), ["in.wkt"])
+
+    def test_too_many_chords(self):
+        self.write("in.wkt", HALF + "\n")
+        self.fail_with(1, "in.wkt: the arcs need more than 2^28 chords, line 1; give a larger --arc-error", "buffer", "in.wkt",
+                       "out.wkt", "--radius", R, "--arc-error", "1e-18", output="out.wkt")
+
+
+if __name__ == "__main__":
+    support.main()

@@ -1,0 +1,207 @@
+"""krepl mill: programs, messages, posts, and gouges by a ball computed here."""
+import math
+import re
+import subprocess
+import unittest
+
+import support
+
+# A block of 20 x 10 with a step and a wedge on it.
+PART = """OFF
+10 8 0
+0 0 0
+20 0 0
+20 10 0
+0 10 0
+4 2 3
+8 2 3
+8 8 3
+4 8 3
+12 5 0
+16 5 4
+3 0 1 2
+3 0 2 3
+3 4 5 6
+3 4 6 7
+3 8 9 2
+3 8 9 1
+3 5 6 8
+3 1 2 9
+"""
+OPTIONS = ["--tool", "ball:3", "--step-over", "1"]
+
+
+def triangles():
+    lines = PART.splitlines()[2:]
+    points = [tuple(map(float, line.split())) for line in lines[:10]]
+    return [[points[int(i)] for i in line.split()[1:]] for line in lines[10:]]
+
+
+def nearest(p, tri):
+    """Distance of a point from a triangle, by steps that halve: far less than what is checked."""
+    a, b, c = tri
+    best = math.inf
+    n = 60
+    for i in range(n + 1):
+        for j in range(n + 1 - i):
+            u, v = i / n, j / n
+            q = [a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]) for k in range(3)]
+            best = min(best, math.dist(p, q))
+    return best
+
+
+def interpret(text):
+    """Places of the control point at the ends of all moves, with (kind, plane, centre)."""
+    at, motion, plane, out = [0.0, 0.0, 0.0], None, "G17", []
+    for line in text.splitlines():
+        line = re.sub(r"\(.*?\)", "", line)
+        words = re.findall(r"([A-Z])(-?[0-9.]+)", line)
+        centre = list(at)
+        moves = False
+        new = list(at)
+        for letter, value in words:
+            if letter == "G" and value in ("0", "1", "2", "3"):
+                motion = int(value)
+            if letter == "G" and value in ("17", "18", "19"):
+                plane = "G" + value
+            if letter in "XYZ":
+                new["XYZ".index(letter)] = float(value)
+                moves = True
+            if letter in "IJK":
+                centre["IJK".index(letter)] += float(value)
+        if moves:
+            out.append((motion, plane, at, new, centre))
+            at = new
+    return out
+
+
+class Mill(support.CliTest):
+    def setUp(self):
+        super().setUp()
+        self.write("part.off", PART)
+
+    def program(self, *options):
+        self.succeed("mill", "part.off", "out.ngc", *OPTIONS, *options)
+        return self.text("out.ngc")
+
+    def test_summary_counts_the_lines(self):
+        done = self.succeed("mill", "part.off", "out.ngc", *OPTIONS)
+        lines = len(self.text("out.ngc").splitlines())
+        self.assertIn(f"{lines} lines of G-code", done.stdout)
+
+    def test_ends_of_moves_are_not_in_the_part(self):
+        for post, point in (("linuxcnc", "tip"), ("grbl", "centre")):
+            moves = interpret(self.program("--post", post, "--control-point", point))
+            self.assertGreater(len(moves), 50)
+            up = 1.5 if point == "tip" else 0
+            for motion, _, _, (x, y, z), _ in moves[::7]:
+                centre = (x, y, z + up)
+                near = [t for t in triangles() if min(p[0] for p in t) - 2 < x < max(p[0] for p in t) + 2]
+                for tri in near:
+                    self.assertGreaterEqual(nearest(centre, tri), 1.5 - 1e-9, f"at {centre} of {tri}")
+
+    def test_arcs_turn_about_their_centres(self):
+        moves = interpret(self.program())
+        arcs = [m for m in moves if m[0] in (2, 3)]
+        self.assertGreater(len(arcs), 5)
+        for _, plane, start, end, centre in arcs:
+            self.assertEqual(plane, "G18")
+            r0 = math.hypot(start[0] - centre[0], start[2] - centre[2])
+            r1 = math.hypot(end[0] - centre[0], end[2] - centre[2])
+            self.assertLess(abs(r0 - r1), 2e-4)
+
+    def test_numbers_have_the_decimals_asked_for(self):
+        text = self.program("--decimals", "3", "--tolerance", "0.05")
+        self.assertFalse(re.search(r"\.[0-9]{4}", re.sub(r"\(.*?\)", "", text)))
+
+    def test_posts(self):
+        linuxcnc, grbl = self.program("--spindle", "12000"), self.program("--post", "grbl")
+        self.assertIn("T1 M6\nG43 H1\nS12000 M3\n", linuxcnc)
+        for word in ("M6", "G43", "G91.1", "M3"):
+            self.assertNotIn(word, grbl)
+        self.assertTrue(linuxcnc.endswith("M5\nM2\n") and grbl.endswith("M2\n"))
+        self.assertIn("G20", self.program("--unit", "in").splitlines()[2])
+
+    def test_safe_height_and_links(self):
+        moves = interpret(self.program("--safe-height", "20", "--direction", "one-way"))
+        self.assertEqual(moves[0][3][2], 20)
+        self.assertEqual(moves[-1][3][2], 20)
+        for motion, _, start, end, _ in moves:  # rapid moves go up, down or level
+            if motion == 0 and start != [0, 0, 0]:
+                self.assertTrue(start[2] == end[2] or start[:2] == end[:2])
+
+    def test_same_bytes_for_any_number_of_threads(self):
+        programs = []
+        for threads in (1, 3):
+            self.succeed("mill", "part.off", "out.ngc", "--tool", "ball:3", "--scallop", "0.05", "--threads", threads)
+            programs.append(self.text("out.ngc"))
+        self.assertEqual(*programs)
+
+    def test_scallop_and_no_arcs_and_angle(self):
+        self.succeed("mill", "part.off", "out.ngc", "--tool", "ball:3", "--scallop", "0.05", "--no-arcs", "--angle", "30", "--verbose")
+        self.assertFalse(re.search(r"G[23]\b", self.text("out.ngc")))
+
+    def test_rough(self):
+        self.succeed("mill", "part.off", "out.ngc", *OPTIONS, "--strategy", "rough", "--step-down", "1", "--allowance", "0.3",
+                     "--stock-top", "5")
+        moves = interpret(self.text("out.ngc"))
+        levels = {m[3][2] for m in moves if m[0] == 1 and m[2][2] == m[3][2]}
+        self.assertGreaterEqual(len(levels), 5)
+        for z in levels:
+            self.assertGreaterEqual(z, 0.3)
+
+    def test_standard_output(self):
+        done = self.succeed("mill", "part.off", "-", *OPTIONS)
+        self.assertTrue(done.stdout.startswith("(part.off, parallel by krepl)\n"))
+        self.assertIn("lines of G-code", done.stderr)
+
+    def test_the_interpreter_accepts_it(self):
+        self.need("rs274")
+        self.program()
+        self.write("tool.tbl", "T1 P1 D3 Z0\n")
+        self.write("rs274.var", "5161 0\n5162 0\n5163 0\n5220 1\n")
+        done = subprocess.run(["rs274", "-g", "-t", "tool.tbl", "-v", "rs274.var", "out.ngc"], cwd=self.directory,
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("PROGRAM_END", done.stdout)
+        self.assertIn("ARC_FEED", done.stdout)
+
+
+class Messages(support.CliTest):
+    def setUp(self):
+        super().setUp()
+        self.write("part.off", PART)
+
+    def refuse(self, message, *options, tool=("--tool", "ball:3")):
+        self.fail_with(2, message, "mill", "part.off", "out.ngc", *tool, *options, output="out.ngc")
+
+    def test_usage(self):
+        step = ("--step-over", "1")
+        self.refuse("neither --step-over nor --scallop is given; give one of them")
+        self.refuse("both --step-over and --scallop are given; give one of them", *step, "--scallop", "0.1")
+        self.refuse("tool 'flat:3' is unknown; give --tool ball:DIAMETER", *step, tool=("--tool", "flat:3"))
+        self.refuse("--strategy 'spiral' is unknown; give one of parallel, rough", *step, "--strategy", "spiral")
+        self.refuse("--post 'fanuc' is unknown; give one of linuxcnc, grbl", *step, "--post", "fanuc")
+        self.refuse("--angle 'north' is not a finite number; give one", *step, "--angle", "north")
+        self.refuse("the safe height 2 is below the highest place of the tool over the part; use at least 4.0002", *step,
+                    "--safe-height", "2")
+        self.refuse("the tolerance 0.001 is too small for numbers that are multiples of 0.0001; use at least 0.0016, or more decimals",
+                    *step, "--tolerance", "0.001")
+        self.refuse("the scallop height 0.01 leaves no room for the tolerance 0.01; use a tolerance of at most 0.008", "--scallop", "0.01")
+
+    def test_options_of_other_strategies(self):
+        step = ("--step-over", "1")
+        self.refuse("--step-down has no meaning for strategy parallel; it belongs to rough", *step, "--step-down", "1")
+        self.refuse("--scallop has no meaning for strategy rough; it belongs to parallel", "--scallop", "1", "--strategy", "rough")
+        self.refuse("--step-down is not given; give the distance of levels", *step, "--strategy", "rough")
+
+    def test_bad_input(self):
+        self.write("empty.off", "OFF\n0 0 0\n")
+        done = self.krepl("mill", "empty.off", "out.ngc", *OPTIONS)
+        self.assertEqual(done.returncode, 1)
+        self.assertTrue(done.stderr.startswith("krepl: empty.off: "))
+        self.assertFalse((self.directory / "out.ngc").exists())
+
+
+if __name__ == "__main__":
+    support.main()

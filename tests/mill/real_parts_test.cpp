@@ -1,0 +1,78 @@
+// Parallel passes over real parts and a real elevation model, by the drop cutter at ten times the sampling.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "input/terrain_reader.hpp"
+#include "mill/path_check.hpp"
+#include "support/environment.hpp"
+
+namespace krepl::test {
+namespace {
+
+struct RealPart {
+  const char* file;
+  double radius;  // relative to the longer side
+};
+const RealPart real_parts[] = {
+    {"mesh/mount_rush.off.gz", 0.02}, {"mesh/demo.off", 0.15},          {"mesh/ktoolcav.off", 0.03},
+    {"mesh/featuretype.off", 0.05},   {"mesh/failedinpycam.off", 0.04}, {"mesh/pycam-textbox.off", 0.01},
+    {"mesh/ktoolcav.stl", 0.1},       {"dem/jacksboro.asc.gz", 0.004},  {"dem/jacksboro.asc.gz", 0.03},
+};
+
+/// The elevation model is in degrees: as cells of 92 m.
+Result<std::shared_ptr<const Terrain>> in_metres(const Terrain& whole) {
+  Terrain::Grid grid = whole.grid();
+  grid.first = {0, 0}, grid.cell_x = grid.cell_y = 92;
+  std::vector<double> heights;
+  for (std::size_t k = 0; k < grid.columns * grid.rows; ++k)
+    heights.push_back(whole.corners(Terrain::Index(6 * k)).point[0].z + whole.origin().z);
+  auto made = Terrain::from_grid(grid, std::move(heights));
+  if (!made) return made.error();
+  return std::make_shared<const Terrain>(std::move(*made));
+}
+
+class RealParts : public testing::TestWithParam<RealPart> {};
+
+TEST_P(RealParts, AreNotCutInto) {
+  const auto data = data_directory();
+  if (!data || !std::filesystem::exists(*data / GetParam().file)) GTEST_SKIP() << "no real data: set KREPL_DATA";
+  input::TerrainRequest request;
+  request.path = (*data / GetParam().file).string();
+  const auto file = input::read_terrain(request);
+  ASSERT_TRUE(file) << file.error().text();
+  const auto made =
+      file->terrain->is_grid() ? in_metres(*file->terrain) : Result<std::shared_ptr<const Terrain>>(file->terrain);
+  ASSERT_TRUE(made);
+  const std::shared_ptr<const Terrain> shared = *made;
+  const Terrain& part = *shared;
+  const double side = std::max(part.highest().x - part.lowest().x, part.highest().y - part.lowest().y);
+  for (const double angle : {0.0, 90.0, 33.0}) {
+    ParallelOptions o;
+    o.tool.radius = side * GetParam().radius;
+    // A hundredth of a millimetre on a part of 100 mm, with four decimals.
+    o.accuracy.unit = std::pow(10.0, std::round(std::log10(side * 1e-6)));
+    o.accuracy.tolerance = 100 * o.accuracy.unit;
+    o.step_over = side / (8 * effort());
+    o.angle = angle;
+    o.zigzag = false;
+    const auto milled = mill_parallel(shared, o);
+    ASSERT_TRUE(milled) << milled.error().text();
+    // Cutter locations of chords within the tolerance are about so far apart.
+    const double spacing = std::sqrt(8 * o.accuracy.tolerance * o.tool.radius), feed = o.motion.feed;
+    const double extent = std::max(part.extent(), o.tool.radius), floor = part.lowest().z + o.tool.radius;
+    const PathCheck check =
+        check_path(part, shared, milled->path, o.tool.radius, o.tool.radius + o.accuracy.tolerance, floor, spacing / 10,
+                   10, [feed](const Move& m) { return m.kind != MoveKind::rapid && m.feed == feed; });
+    EXPECT_GT(check.places, 1000u);
+    EXPECT_LE(check.deepest, 1e-9 * extent)
+        << "angle " << angle << " at " << check.deepest_at.x << " " << check.deepest_at.y;
+    EXPECT_LE(check.highest, 1e-9 * extent)
+        << "angle " << angle << " at " << check.highest_at.x << " " << check.highest_at.y << " " << check.highest_at.z;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Mesh, RealParts, testing::ValuesIn(real_parts));
+
+}  // namespace
+}  // namespace krepl::test
