@@ -13,9 +13,7 @@ namespace zone {
 Result<ZoneRings> zone_rings(const Network& network, double radius, const Context& context) {
   const auto precision = precision_for(network, radius);
   if (!precision) return precision.error();
-  const zone::Instance instance(*network, options.radius, precision->effective_radius, precision->resolution, context);
-  return zone_of_instance(std::move(network), instance, precision->resolution, context, nullptr);
-}
+  const Error cancelled{ErrorCode::cancelled, "cancelled", "", ""};
 
   ZoneRings result;
   result.resolution = precision->resolution;
