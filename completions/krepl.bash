@@ -22,6 +22,9 @@ _krepl() {
       local engines="auto intervals voronoi sweep"
       [[ $verb == terrain ]] && engines="auto incremental"
       mapfile -t COMPREPLY < <(compgen -W "$engines" -- "$current"); return ;;
+    --cap) mapfile -t COMPREPLY < <(compgen -W "round flat square" -- "$current"); return ;;
+    --join) mapfile -t COMPREPLY < <(compgen -W "round mitre bevel" -- "$current"); return ;;
+    --side) mapfile -t COMPREPLY < <(compgen -W "both left right" -- "$current"); return ;;
     --owner) mapfile -t COMPREPLY < <(compgen -W "nearest" -- "$current"); return ;;
     --radius-field | --dissolve-by)  # the fields of the input
       for word in "${COMP_WORDS[@]:2}"; do
@@ -53,7 +56,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --level | --step | --from | --to | --distance | --from | --to | --ceiling | --max-slope | --step | --snap | --grid | --flow-field | --where | --max-error | --arc-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --stock | --before | --max-rest | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit | --step-over | --scallop | --angle | --tolerance | --allowance | --bottom | --feed | --plunge-feed | --spindle | --safe-height | --clearance | --decimals | --tool-number | --step-down | --ramp-angle | --stock-top | --stock-margin) return ;;
+    --radius | --level | --step | --from | --to | --distance | --from | --to | --ceiling | --max-slope | --step | --snap | --grid | --flow-field | --where | --max-error | --arc-error | --max-clearance | --mitre-limit | --threads | --samples | --z-scale | --band | --cell | --stock | --before | --max-rest | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit | --step-over | --scallop | --angle | --tolerance | --allowance | --bottom | --feed | --plunge-feed | --spindle | --safe-height | --clearance | --decimals | --tool-number | --step-down | --ramp-angle | --stock-top | --stock-margin) return ;;
   esac
   local command=("$verb")
   if [[ $verb == lab ]]; then
