@@ -256,7 +256,7 @@ void print(Session& session, const verify::PathReport& report) {
                               report.radius, report.moves, report.length, report.triangles));
   session.summary(
       fmt::format("S {:.6g}, tolerance {:.2g}, a place every {:.3g}", report.scale, report.tolerance, report.step));
-  print(session, report.checks);
+  print_checks(session, report.checks);
 }
 
 int verify_path(const VerifyOptions& options, Session& session) {
