@@ -58,9 +58,12 @@ Result<Loaded> load(const FeatureVerification& job, Session& session, bool& faul
   Loaded all;
   const verify::InputRequest& in = job.input;
   fault_of_result = false;
-  auto data = input::read_features({{in.path, in.layer, in.where, in.crs, in.to_crs}, in.radius_field, in.radius_expression,
-                                    job.features.dissolve_by},
-                                   session.context("reading"));
+  input::FeatureRequest request;
+  request.network.path = in.path, request.network.layer = in.layer, request.network.where = in.where;
+  request.network.crs = in.crs, request.network.to_crs = in.to_crs;
+  request.radius_field = in.radius_field, request.radius_expression = in.radius_expression;
+  request.group_field = job.features.dissolve_by;
+  auto data = input::read_features(request, session.context("reading"));
   session.finish_progress();
   if (!data) return data.error();
   all.data = std::move(*data);
