@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
   krepl::app::add_simulate_verb(program, session);
   krepl::app::add_terrain_verb(program, session);
   krepl::app::add_height_verb(program, session);
+  krepl::app::add_free_verb(program, session);
   krepl::app::add_contour_verb(program, session);
   krepl::app::add_section_verb(program, session);
   krepl::app::add_mill_verb(program, session);

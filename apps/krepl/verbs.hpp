@@ -86,6 +86,7 @@ Result<double> parse_positive(std::string_view option, std::string_view text);
 void add_axis_verb(CLI::App& program, Session& session);
 void add_buffer_verb(CLI::App& program, Session& session);
 void add_contour_verb(CLI::App& program, Session& session);
+void add_free_verb(CLI::App& program, Session& session);
 void add_height_verb(CLI::App& program, Session& session);
 void add_info_verb(CLI::App& program, Session& session);
 void add_lab_verb(CLI::App& program, Session& session);

@@ -27,8 +27,12 @@ std::string lower(std::string_view text) {
 Result<CsvTable> CsvTable::open(const std::string& path) {
   Result<std::vector<char>> text = read_whole_file(path);
   if (!text) return text.error();
+  return from_text(std::move(*text));
+}
+
+Result<CsvTable> CsvTable::from_text(std::vector<char> text) {
   CsvTable table;
-  table.text_ = std::move(*text);
+  table.text_ = std::move(text);
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (std::string_view(table.text_.data(), table.text_.size()).starts_with(byte_order_mark)) table.position_ = 3;
   std::string_view line;

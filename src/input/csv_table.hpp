@@ -18,6 +18,9 @@ class CsvTable {
  public:
   /// Reads the whole file (also .gz, or `-`) and its header. Errors: as checked_path, cannot be read, no header.
   static Result<CsvTable> open(const std::string& path);
+  /// The same from text, whole lines of it; continue_with() gives more of them, once next() has come to the end.
+  static Result<CsvTable> from_text(std::vector<char> text);
+  void continue_with(std::vector<char> text) { text_ = std::move(text), position_ = 0; }
 
   /// The place of a column, whatever its case; an Error lists those there are.
   Result<std::size_t> column(std::string_view name) const;
