@@ -22,8 +22,8 @@ namespace krepl::app {
 namespace {
 
 struct FreeOptions {
-  TerrainOptions terrain;        ///< IN of either kind, and its coordinate systems
-  input::NetworkRequest plane;   ///< --layer, --where, --arc-error
+  TerrainOptions terrain;       ///< IN of either kind, and its coordinate systems
+  input::NetworkRequest plane;  ///< --layer, --where, --arc-error
   std::string radius, places, motions, output;
 };
 
@@ -79,7 +79,8 @@ Result<Counts> write_motions(const Rows& rows, const input::Motions& motions, ou
   std::vector<std::optional<typename Rows::Space::Cut>> cuts(motions.size());
   const bool done = kernel::parallel_blocks(context, motions.size(), 1, [&](std::size_t m, std::size_t) {
     std::vector<typename Rows::Place> points;
-    for (std::size_t i = motions.begin[m]; i < motions.begin[m + 1]; ++i) points.push_back(Rows::place(motions.points[i]));
+    for (std::size_t i = motions.begin[m]; i < motions.begin[m + 1]; ++i)
+      points.push_back(Rows::place(motions.points[i]));
     cuts[m] = rows.space.first_contact(points);
   });
   if (!done) return Error{ErrorCode::cancelled, "cancelled", "", ""};
@@ -120,13 +121,13 @@ int run_in(const Rows& rows, const FreeOptions& options, std::optional<input::Pl
   const Result<Counts> counts = places ? write_places(rows, *places, *stream, input_name(options.places), session)
                                        : write_motions(rows, *motions, *stream, session.context("moving"));
   if (!counts) return session.fail("", counts.error());
-  if (Status finished = stream->finish(); !finished)
-    return session.fail(output_name(options.output), finished.error());
+  if (Status finished = stream->finish(); !finished) return session.fail(output_name(options.output), finished.error());
   session.detail(fmt::format("measure    {:.3f} s, with writing", measuring.seconds()));
-  const std::string found =
-      places ? fmt::format("{} free, {} cut in, {} inside", plural(counts->all, "place") + ": " + std::to_string(counts->free),
-                           counts->all - counts->free - counts->inside, counts->inside)
-             : fmt::format("{}: {} free, {} cut in", plural(counts->all, "motion"), counts->free, counts->all - counts->free);
+  const std::string found = places ? fmt::format("{} free, {} cut in, {} inside",
+                                                 plural(counts->all, "place") + ": " + std::to_string(counts->free),
+                                                 counts->all - counts->free - counts->inside, counts->inside)
+                                   : fmt::format("{}: {} free, {} cut in", plural(counts->all, "motion"), counts->free,
+                                                 counts->all - counts->free);
   session.summary(fmt::format("{}; {:.3f} s", found, total.seconds()), options.output == "-");
   return 0;
 }
@@ -157,20 +158,21 @@ int run_over_terrain(const FreeOptions& options, double radius, const Stopwatch&
 
 /// What is for the other kind of IN, if it is given.
 std::optional<Error> refuse_terrain_options(const FreeOptions& options) {
-  for (const auto& [name, given] : {std::pair{"--z-scale", !options.terrain.z_scale.empty()},
-                                    std::pair{"--split", !options.terrain.split.empty()},
-                                    std::pair{"--band", options.terrain.request.band != 0}})
+  for (const auto& [name, given] :
+       {std::pair{"--z-scale", !options.terrain.z_scale.empty()}, std::pair{"--split", !options.terrain.split.empty()},
+        std::pair{"--band", options.terrain.request.band != 0}})
     if (given)
       return Error{ErrorCode::usage, fmt::format("{} is for terrains, but IN is neither a raster nor a mesh", name), "",
                    "leave it out"};
   return std::nullopt;
 }
 std::optional<Error> refuse_plane_options(const FreeOptions& options) {
-  for (const auto& [name, given] : {std::pair{"--layer", !options.plane.layer.empty()},
-                                    std::pair{"--where", !options.plane.where.empty()},
-                                    std::pair{"--arc-error", options.plane.arc_error != 0}})
+  for (const auto& [name, given] :
+       {std::pair{"--layer", !options.plane.layer.empty()}, std::pair{"--where", !options.plane.where.empty()},
+        std::pair{"--arc-error", options.plane.arc_error != 0}})
     if (given)
-      return Error{ErrorCode::usage, fmt::format("{} is for vector files, but IN is a terrain", name), "", "leave it out"};
+      return Error{ErrorCode::usage, fmt::format("{} is for vector files, but IN is a terrain", name), "",
+                   "leave it out"};
   return std::nullopt;
 }
 
@@ -200,7 +202,8 @@ int run_free(const FreeOptions& options, Session& session) {
     return wrong("give either --at or --motion", "placements, or polylines of them");
   const std::string& asked = options.places.empty() ? options.motions : options.places;
   const std::string& in = options.terrain.request.path;
-  if (asked == "-" && in == "-") return wrong("IN and the places are both standard input", "name a file for one of them");
+  if (asked == "-" && in == "-")
+    return wrong("IN and the places are both standard input", "name a file for one of them");
   const bool terrain = is_terrain(in);
   if (const auto error = terrain ? refuse_plane_options(options) : refuse_terrain_options(options))
     return session.fail("", *error);
@@ -220,7 +223,8 @@ void add_free_verb(CLI::App& program, Session& session) {
                    ".stl .obj .ply .off")
       ->required();
   verb->add_option("--radius", options->radius, "Radius of the disk or ball, in the unit of the coordinates")
-      ->required()->type_name("R");
+      ->required()
+      ->type_name("R");
   verb->add_option("--at", options->places,
                    "Placements of the centre: CSV with columns x,y and over a terrain z (others are ignored), or -")
       ->type_name("PTS.csv");
@@ -230,8 +234,10 @@ void add_free_verb(CLI::App& program, Session& session) {
       ->type_name("LINES.csv");
   verb->add_option("-o,--output", options->output,
                    "Result: CSV; of placements x,y[,z],free,clearance,kind,px,py,pz|feature, or -")
-      ->required()->type_name("OUT.csv");
-  verb->add_option("--crs", options->terrain.request.crs, "Coordinate system of the data, in place of what the file says")
+      ->required()
+      ->type_name("OUT.csv");
+  verb->add_option("--crs", options->terrain.request.crs,
+                   "Coordinate system of the data, in place of what the file says")
       ->type_name("EPSG:n");
   verb->add_option("--to-crs", options->terrain.request.to_crs,
                    "Plane coordinate system to take IN to; places are in it; auto chooses one")
@@ -246,7 +252,8 @@ void add_free_verb(CLI::App& program, Session& session) {
                    "Raster: diagonal that splits a cell: rising (default), falling, shorter")
       ->type_name("NAME");
   verb->add_option("--band", options->terrain.request.band, "Raster: band to read (default: 1)")
-      ->type_name("N")->check(CLI::PositiveNumber);
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
   session.add_common_options(*verb);
   session.on_run(*verb, [options, &session] { return run_free(*options, session); });
 }

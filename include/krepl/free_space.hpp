@@ -18,9 +18,9 @@
 ///
 /// A placement is free if the centre is not inside the sum of obstacle and disk or ball: touching is free. Clearance is
 /// the signed distance to contact: the centre's distance from the obstacle, less R, so free is clearance >= 0. It is
-/// correct to 1e-13 S, and what is within 2^-46 S of contact counts as touching: its clearance is 0. S is the largest of
-/// R and the absolute coordinates of obstacle and placement, after the input's origin is taken off. All coordinates here
-/// are the input's own.
+/// correct to 1e-13 S, and what is within 2^-46 S of contact counts as touching: its clearance is 0. S is the largest
+/// of R and the absolute coordinates of obstacle and placement, after the input's origin is taken off. All coordinates
+/// here are the input's own.
 ///
 /// Objects are immutable: any number of threads may use one at the same time.
 namespace krepl {
@@ -29,8 +29,8 @@ namespace krepl {
 class DiskFreeSpace {
  public:
   struct Contact {
-    /// Where the centre lies inside a polygon: -(R + the distance to the nearest line or point of the input). NaN if the
-    /// placement is not finite.
+    /// Where the centre lies inside a polygon: -(R + the distance to the nearest line or point of the input). NaN if
+    /// the placement is not finite.
     double clearance = std::numeric_limits<double>::quiet_NaN();
     Point point;  ///< the nearest point of the lines, outlines and points; of several the one of lowest number
     bool at_vertex = false;  ///< it is a vertex of the input (to within 2^-46 S), else on a segment
@@ -48,8 +48,8 @@ class DiskFreeSpace {
     Contact contact;      ///< there
   };
 
-  /// Errors: radius not finite and positive (usage); coordinates or radius beyond 1e100; cancelled. O(n log n) time,
-  /// some 80 bytes a segment.
+  /// Errors: radius not finite and positive (usage); coordinates or radius beyond 1e100, radius below 1e-100;
+  /// cancelled. Linear time; some 40 bytes a segment.
   static Result<DiskFreeSpace> build(std::shared_ptr<const Network> network, double radius,
                                      const Context& context = {});
 
@@ -85,11 +85,11 @@ class DiskFreeSpace {
 class BallFreeSpace {
  public:
   struct Contact {
-    /// Where the centre itself is in the solid: -(R + how far the upper side is above it, along the vertical). NaN if the
-    /// placement is not finite.
+    /// Where the centre itself is in the solid: -(R + how far the upper side is above it, along the vertical). NaN if
+    /// the placement is not finite.
     double clearance = std::numeric_limits<double>::quiet_NaN();
-    /// The nearest point of the solid: on a triangle, or level with the centre on the wall below an edge or vertex at the
-    /// border of the domain or of an overhang. Where the centre is in the solid: the upper side above it.
+    /// The nearest point of the solid: on a triangle, or level with the centre on the wall below an edge or vertex at
+    /// the border of the domain or of an overhang. Where the centre is in the solid: the upper side above it.
     Point3 point;
     /// The face, edge or vertex of the terrain that the point lies on (to within 2^-46 S) or below. Of several nearest
     /// points whose distances are equal in double precision that of lowest dimension, then of lowest number.
@@ -106,7 +106,8 @@ class BallFreeSpace {
   };
 
   /// Errors: radius not finite and positive, or below 2^-50 of the terrain's extent (usage); coordinates or radius
-  /// beyond 1e100; cancelled. Linear time; 3 bytes a sample of a grid, 6 bytes a triangle of a mesh.
+  /// beyond 1e100, radius below 1e-100; cancelled. Linear time; 3 bytes a sample of a grid, 6 bytes a triangle of a
+  /// mesh.
   static Result<BallFreeSpace> build(std::shared_ptr<const Terrain> terrain, double radius,
                                      const Context& context = {});
   /// The same terrain with a ball of another size. Constant time.

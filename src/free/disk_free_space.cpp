@@ -38,8 +38,7 @@ Vector<double> nearest_of(const Box& b, Point c) {
 /// The segments and isolated vertices of a network. Coordinates are relative to its origin.
 class DiskFreeSpace::Index {
  public:
-  explicit Index(const Network& network)
-      : network_(network), isolated_(isolated_vertices(network)), tree_(boxes()) {
+  explicit Index(const Network& network) : network_(network), isolated_(isolated_vertices(network)), tree_(boxes()) {
     if (network.has_polygons()) polygons_.emplace(network);
   }
 
@@ -109,15 +108,14 @@ DiskFreeSpace::Index::Feature DiskFreeSpace::Index::settle(std::size_t i, int wh
   return {1, std::uint32_t(i)};
 }
 
-DiskFreeSpace::Contact DiskFreeSpace::Index::contact(Point c, double radius, const Nearest<quad>& found, Feature feature,
-                                                     bool inside, const Tolerance& tolerance) const {
+DiskFreeSpace::Contact DiskFreeSpace::Index::contact(Point c, double radius, const Nearest<quad>& found,
+                                                     Feature feature, bool inside, const Tolerance& tolerance) const {
   Contact contact;
   const quad distance = found.distance();
   contact.clearance = tolerance.clearance(double(inside ? -distance - radius : distance - radius));
   contact.point = Point{double(c.x + found.at.x), double(c.y + found.at.y)} + network_.origin();
   contact.at_vertex = feature.dimension == 0;
-  contact.source =
-      contact.at_vertex ? network_.vertex_source(feature.number) : network_.segment_source(feature.number);
+  contact.source = contact.at_vertex ? network_.vertex_source(feature.number) : network_.segment_source(feature.number);
   return contact;
 }
 
@@ -126,7 +124,11 @@ DiskFreeSpace::Contact DiskFreeSpace::Index::clearance(Point c, double radius) c
   std::vector<std::pair<double, std::size_t>> candidates;  // rough distance, item
   double limit = never;
   tree_.nearest(
-      limit, [&](const Box& b) { const auto near = nearest_of(b, c); return std::hypot(near.x, near.y); },
+      limit,
+      [&](const Box& b) {
+        const auto near = nearest_of(b, c);
+        return std::hypot(near.x, near.y);
+      },
       [&](std::size_t i) {
         double rough = nearest<double>(i, c).distance();
         if (!std::isfinite(rough)) rough = double(nearest<quad>(i, c).distance());
@@ -195,8 +197,10 @@ Result<DiskFreeSpace> DiskFreeSpace::build(std::shared_ptr<const Network> networ
                                            const Context& context) {
   if (!std::isfinite(radius) || radius <= 0)
     return Error{ErrorCode::usage, "the radius is " + shown(radius), "", "give a positive, finite number"};
-  if (std::max(radius, network->extent()) > 1e100)
-    return Error{ErrorCode::input, "coordinates or radius are beyond 1e100", "", "scale the input"};
+  if (std::max(radius, network->extent()) > 1e100 || radius < 1e-100) {
+    return Error{ErrorCode::input, "coordinates or radius are beyond 1e100, or the radius is below 1e-100", "",
+                 "scale the input"};
+  }
   auto index = std::make_shared<const Index>(*network);
   if (context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
   return DiskFreeSpace(std::move(network), std::move(index), radius);

@@ -9,8 +9,8 @@ struct Approach {
   double distance, slope;
 };
 
-/// The distance from a convex obstacle is a convex function of t along a straight motion. So Newton's iteration from the
-/// left never passes the root: the tangent lies below the function.
+/// The distance from a convex obstacle is a convex function of t along a straight motion. So Newton's iteration from
+/// the left never passes the root: the tangent lies below the function.
 inline constexpr int most_steps = 100;  // each at least halves what is left, even where motion and obstacle only touch
 inline constexpr double never = std::numeric_limits<double>::infinity();
 

@@ -6,7 +6,8 @@
 #include "krepl/point.hpp"
 
 /// Distances from a place to what is solid: segments of the plane (z = 0), and in space triangles with everything below
-/// them. All of these are convex. In double or in quadruple precision; coordinates relative to the place, which is zero.
+/// them. All of these are convex. In double or in quadruple precision; coordinates relative to the place, which is
+/// zero.
 namespace krepl::free {
 
 template <class Real>
@@ -39,7 +40,11 @@ struct Nearest {
   std::uint8_t part;
 
   Nearest(Vector<Real> at_, int part_) : at(at_), square(dot(at_, at_)), part(std::uint8_t(part_)) {}
-  Real distance() const { return kernel::square_root(square); }
+  Real distance() const {
+    // Quadruple roots start from double ones, which end at 1e308; places may be as far as that themselves.
+    if (!(square > Real(1e300))) return kernel::square_root(square);
+    return Real(0x1p600) * kernel::square_root(square * Real(0x1p-600) * Real(0x1p-600));
+  }
 };
 inline constexpr int edge_part = 3, face_part = 6;
 

@@ -33,16 +33,15 @@ std::vector<TerrainShadows::Block> TerrainShadows::blocks_of(const Terrain& terr
   blocks.reserve(std::size_t{columns} * rows);
   for (std::uint32_t row = 0; row < rows; ++row)
     for (std::uint32_t column = 0; column < columns; ++column) blocks.push_back({column, row});
-  std::sort(blocks.begin(), blocks.end(), [](Block a, Block b) {
-    return interleaved(a.column, a.row) < interleaved(b.column, b.row);
-  });
+  std::sort(blocks.begin(), blocks.end(),
+            [](Block a, Block b) { return interleaved(a.column, a.row) < interleaved(b.column, b.row); });
   return blocks;
 }
 
 std::vector<ShadowBox> TerrainShadows::boxes(const Context& context) const {
   const std::size_t triangles = access_.triangles().size();
-  std::vector<ShadowBox> boxes(
-      terrain_.is_grid() ? block_.size() : (triangles + triangles_per_block - 1) / triangles_per_block);
+  std::vector<ShadowBox> boxes(terrain_.is_grid() ? block_.size()
+                                                  : (triangles + triangles_per_block - 1) / triangles_per_block);
   kernel::parallel_blocks(context, boxes.size(), 1024, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first; b < last; ++b)
       for_each(b, [&](const Part& part) {
@@ -73,7 +72,8 @@ Part TerrainShadows::grid_part(std::size_t column, std::size_t row, bool falling
   Part part;
   for (unsigned k = 0; k < 3; ++k) {
     const unsigned here = corners_of[falling][upper][k], next = corners_of[falling][upper][(k + 1) % 3];
-    part.corner[k] = {access_.grid_x(column + (here & 1)), access_.grid_y(row + (here >> 1)), access_.heights()[at(here)]};
+    part.corner[k] = {access_.grid_x(column + (here & 1)), access_.grid_y(row + (here >> 1)),
+                      access_.heights()[at(here)]};
     part.vertex[k] = Terrain::Index(6 * at(here));
     const unsigned kind = (here ^ next) == 1 ? 1 : (here ^ next) == 2 ? 2 : 3;
     part.edge[k] = Terrain::Index(6 * at(kind == 3 ? 0 : std::min(here, next)) + kind);

@@ -42,8 +42,8 @@ struct Part {
   bool vertical = false;
 };
 
-/// The triangles of a terrain in blocks of neighbours, and a tree over the boxes of these. Coordinates are relative to the
-/// terrain's origin.
+/// The triangles of a terrain in blocks of neighbours, and a tree over the boxes of these. Coordinates are relative to
+/// the terrain's origin.
 class TerrainShadows {
  public:
   TerrainShadows(const Terrain& terrain, const Context& context);

@@ -11,8 +11,8 @@
 
 namespace krepl::free {
 
-/// Error budget, relative to S. Rough distances in double precision: 2^-48 (differences of coordinates 2^-53, normals of
-/// triangles that are no slivers 16 times as much, some operations); measured ones: 2^-53.
+/// Error budget, relative to S. Rough distances in double precision: 2^-48 (differences of coordinates 2^-53, normals
+/// of triangles that are no slivers 16 times as much, some operations); measured ones: 2^-53.
 struct Tolerance {
   explicit Tolerance(double scale) : touch(0x1p-46 * scale), margin(0x1p-44 * scale) {}
 

@@ -26,8 +26,8 @@ Result<PlaceStream> PlaceStream::open(const std::string& path, bool with_z, cons
   return stream;
 }
 
-/// What is there up to the last line's end: a megabyte, more only where a line is longer, less where a stream has no more
-/// for now.
+/// What is there up to the last line's end: a megabyte, more only where a line is longer, less where a stream has no
+/// more for now.
 Result<std::vector<char>> PlaceStream::whole_lines(const Context& context) {
   constexpr std::size_t portion = std::size_t{1} << 20;
   std::vector<char> text = std::move(rest_);

@@ -13,15 +13,15 @@
 
 namespace krepl::input {
 
-/// Places from a CSV file (also .gz, or `-`) with columns x, y and, if asked for, z, portion by portion: memory does not
-/// grow with the file. Other columns are ignored.
+/// Places from a CSV file (also .gz, or `-`) with columns x, y and, if asked for, z, portion by portion: memory does
+/// not grow with the file. Other columns are ignored.
 class PlaceStream {
  public:
   /// Errors: as ByteStream and CsvTable.
   static Result<PlaceStream> open(const std::string& path, bool with_z, const Context& context = {});
 
-  /// Replaces `places` by the next portion, which is empty at the end. z is 0 where it was not asked for. Errors: no row
-  /// below the header; coordinates that are missing, not numbers or not finite (the line is named); cancelled.
+  /// Replaces `places` by the next portion, which is empty at the end. z is 0 where it was not asked for. Errors: no
+  /// row below the header; coordinates that are missing, not numbers or not finite (the line is named); cancelled.
   Status next(std::vector<Point3>& places, const Context& context = {});
 
  private:

@@ -57,7 +57,7 @@ long double distance_from_feature(const Terrain& terrain, Terrain::Index feature
     Point3& q = triangle[std::size_t(k)];
     q = {q.x + terrain.origin().x, q.y + terrain.origin().y, q.z + terrain.origin().z};
   }
-  return solid_distance(std::array{triangle}, p);
+  return solid_distance(std::span(&triangle, 1), p);
 }
 
 void check_place(const BallFreeSpace& space, const Triangles& triangles, Point3 place) {
@@ -70,14 +70,18 @@ void check_place(const BallFreeSpace& space, const Triangles& triangles, Point3 
     ASSERT_LE(away, tolerance);
     const auto deep = depth(triangles, place);
     // On the border of a triangle's shadow extended precision may see nothing above.
-    if (deep) ASSERT_NEAR(double(-r - *deep), contact.clearance, tolerance);
+    if (deep) {
+      ASSERT_NEAR(double(-r - *deep), contact.clearance, tolerance);
+    }
     ASSERT_EQ(contact.point.x, place.x);
     ASSERT_EQ(contact.point.y, place.y);
     ASSERT_NEAR(contact.point.z - place.z, -r - contact.clearance, tolerance);
   } else {
     ASSERT_NEAR(double(away - r), contact.clearance, tolerance);
     ASSERT_NEAR(distance(contact.point, place), contact.clearance + r, tolerance);
-    if (away > tolerance) ASSERT_FALSE(depth(triangles, place));
+    if (away > tolerance) {
+      ASSERT_FALSE(depth(triangles, place));
+    }
   }
   ASSERT_EQ(contact.free(), contact.clearance >= 0);
   ASSERT_EQ(space.is_free(place), contact.free());
@@ -90,28 +94,34 @@ Point3 along(Point3 a, Point3 b, double t) {
 
 /// Before the contact all is free, at it the ball touches, and behind it cuts in.
 void check_motion(const BallFreeSpace& space, const Triangles& triangles, Point3 from, Point3 to) {
-  const double r = space.radius(), tolerance = 1e-11 * std::max(scale_of(triangles, from, r), scale_of(triangles, to, r));
-  SCOPED_TRACE(testing::Message() << "from " << from.x << ' ' << from.y << ' ' << from.z << " to " << to.x << ' ' << to.y
-                                  << ' ' << to.z << " R " << r);
+  const double r = space.radius(),
+               tolerance = 1e-11 * std::max(scale_of(triangles, from, r), scale_of(triangles, to, r));
+  SCOPED_TRACE(testing::Message() << "from " << from.x << ' ' << from.y << ' ' << from.z << " to " << to.x << ' '
+                                  << to.y << ' ' << to.z << " R " << r);
   const auto cut = space.first_contact(from, to);
   const double until = cut ? cut->t : 1;
   const auto room = [&](double t) { return double(solid_distance(triangles, along(from, to, t)) - r); };
-  for (int i = 0; i <= 64; ++i) {
-    const double t = i * until / 64;
-    if (!cut || t < until || until > 0) ASSERT_GE(room(t), -tolerance) << "t " << t << " of " << until;
-  }
   ASSERT_EQ(!cut, space.is_free(std::array{from, to}));
-  if (!cut) return;
-  if (until == 0 && !space.is_free(from)) {
+  if (!space.is_free(from)) {
+    ASSERT_TRUE(cut);
+    ASSERT_EQ(until, 0);
     ASSERT_EQ(cut->contact.clearance, space.clearance(from).clearance);
     return;
   }
+  for (int i = 0; i <= 64; ++i) ASSERT_GE(room(i * until / 64), -tolerance) << i * until / 64 << " of " << until;
+  if (!cut) return;
   ASSERT_EQ(cut->contact.clearance, 0);
   ASSERT_NEAR(room(until), 0, tolerance);
   ASSERT_NEAR(distance(cut->place, cut->contact.point), r, tolerance);
   double deepest = 0;
   for (double step = 1 - until; step > 1e-13; step /= 1.5) deepest = std::min(deepest, room(until + step));
   ASSERT_LT(deepest, 0) << "t " << until;
+}
+
+bool without_area(const SmallTerrain::Triangle& t) {
+  const Point3 u{t[1].x - t[0].x, t[1].y - t[0].y, t[1].z - t[0].z},
+      v{t[2].x - t[0].x, t[2].y - t[0].y, t[2].z - t[0].z};
+  return u.x * v.y == u.y * v.x && u.y * v.z == u.z * v.y && u.z * v.x == u.x * v.z;
 }
 
 class RandomBalls : public testing::TestWithParam<int> {};
@@ -128,7 +138,8 @@ TEST_P(RandomBalls, AgreeWithBruteForce) {
     const auto terrain = terrain_of(c);
     if (!terrain) continue;
     ++made;
-    const Triangles triangles = triangles_of(c);
+    Triangles triangles = triangles_of(c);
+    std::erase_if(triangles, without_area);  // as the terrain does
     const double radii[] = {c.radius, 0.5, 1, std::numbers::sqrt2, uniform(random, 0.01, 4)};
     auto space = BallFreeSpace::build(*terrain, radii[i % 5]);
     ASSERT_TRUE(space.ok()) << space.error().text();
@@ -163,7 +174,8 @@ TEST_P(RandomBalls, AgreeWithBruteForce) {
 INSTANTIATE_TEST_SUITE_P(Families, RandomBalls, testing::Range(0, int(SmallTerrainFamily::count)),
                          [](const auto& info) { return std::string(name(SmallTerrainFamily(info.param))); });
 
-std::shared_ptr<const Terrain> mesh(std::vector<Point3> vertices, std::vector<std::array<Terrain::Index, 3>> triangles) {
+std::shared_ptr<const Terrain> mesh(std::vector<Point3> vertices,
+                                    std::vector<std::array<Terrain::Index, 3>> triangles) {
   auto terrain = Terrain::from_triangles(std::move(vertices), std::move(triangles));
   return terrain ? std::make_shared<const Terrain>(std::move(*terrain)) : nullptr;
 }
@@ -236,7 +248,8 @@ TEST(BallFreeSpace, SameBitsForAnyNumberOfThreads) {
   const auto space = BallFreeSpace::build(plate(), 1);
   Random random(seed());
   std::vector<Point3> places;
-  for (int i = 0; i < 3000; ++i) places.push_back({uniform(random, -2, 12), uniform(random, -2, 12), uniform(random, -2, 3)});
+  for (int i = 0; i < 3000; ++i)
+    places.push_back({uniform(random, -2, 12), uniform(random, -2, 12), uniform(random, -2, 3)});
   std::vector<Contact> one(places.size()), three(places.size());
   ASSERT_TRUE(space->clearance(places, one, Context{1, {}, nullptr}).ok());
   ASSERT_TRUE(space->clearance(places, three, Context{3, {}, nullptr}).ok());

@@ -67,8 +67,9 @@ void check_terrain(const std::shared_ptr<const Terrain>& terrain, double radius,
     // On the rim of the ball heights amplify the tolerance.
     const Point3 landed = down->place;
     ASSERT_NEAR(space->clearance(landed).clearance, 0, tolerance);
-    if (std::hypot(rest.point.x - p.x, rest.point.y - p.y) < 0.99 * radius)
+    if (std::hypot(rest.point.x - p.x, rest.point.y - p.y) < 0.99 * radius) {
       ASSERT_NEAR(landed.z, rest.height + origin.z, 100 * tolerance);
+    }
     // A level motion is free as far as no ball that rests in its way is higher.
     const Point q{p.x + uniform(random, -4, 4) * radius, p.y + uniform(random, -4, 4) * radius};
     const double level = rest.height + uniform(random, 0, radius);
@@ -77,7 +78,7 @@ void check_terrain(const std::shared_ptr<const Terrain>& terrain, double radius,
     const double until = cut ? cut->t : 1;
     for (int k = 0; k <= 40; ++k) {
       const Point on{p.x + k * until / 40 * (q.x - p.x), p.y + k * until / 40 * (q.y - p.y)};
-      if (k < 40 || !cut) ASSERT_LE(cutter->at(on).height, level + 1e-9 * terrain->extent());
+      ASSERT_LE(cutter->at(on).height, level + 1e-7 * terrain->extent()) << "walls amplify what t is off by";
     }
     slid += bool(cut);
   }
