@@ -2,7 +2,7 @@
 
 _krepl() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  local verbs="buffer axis rivers offset profile terrain height mill simulate route info verify view lab" verb= word
+  local verbs="buffer axis rivers offset profile terrain height mill simulate route contour section info verify view lab" verb= word
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case " $verbs " in *" $word "*) verb=$word; break ;; esac
   done
@@ -14,6 +14,7 @@ _krepl() {
   case $previous in
     --format)
       local formats="gpkg fgb wkt wkb geojson shp svg dxf"
+      [[ $verb == contour || $verb == section ]] && formats="csv gpkg fgb wkt geojson shp svg dxf"
       [[ $verb == terrain ]] && formats="json gpkg step tif stl ply glb png"
       [[ $verb == simulate ]] && formats="tif png"
       mapfile -t COMPREPLY < <(compgen -W "$formats" -- "$current"); return ;;
@@ -21,6 +22,9 @@ _krepl() {
       local engines="auto intervals voronoi sweep"
       [[ $verb == terrain ]] && engines="auto incremental"
       mapfile -t COMPREPLY < <(compgen -W "$engines" -- "$current"); return ;;
+    --cap) mapfile -t COMPREPLY < <(compgen -W "round flat square" -- "$current"); return ;;
+    --join) mapfile -t COMPREPLY < <(compgen -W "round mitre bevel" -- "$current"); return ;;
+    --side) mapfile -t COMPREPLY < <(compgen -W "both left right" -- "$current"); return ;;
     --owner) mapfile -t COMPREPLY < <(compgen -W "nearest" -- "$current"); return ;;
     --radius-field | --dissolve-by)  # the fields of the input
       for word in "${COMP_WORDS[@]:2}"; do
@@ -38,6 +42,7 @@ _krepl() {
     --tool) mapfile -t COMPREPLY < <(compgen -W "ball: flat: bull: cone: taper:" -- "$current"); return ;;
     --prefer) mapfile -t COMPREPLY < <(compgen -W "length clearance" -- "$current"); return ;;
     --minimise) mapfile -t COMPREPLY < <(compgen -W "length climb" -- "$current"); return ;;
+    --ties) mapfile -t COMPREPLY < <(compgen -W "high low" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "mm cm m km in ft" -- "$current"); return ;;
     --split) mapfile -t COMPREPLY < <(compgen -W "rising falling shorter" -- "$current"); return ;;
     --to-crs) mapfile -t COMPREPLY < <(compgen -W "auto EPSG:" -- "$current"); return ;;
@@ -49,7 +54,7 @@ _krepl() {
         return
       done
       return ;;
-    --radius | --distance | --from | --to | --ceiling | --max-slope | --step | --snap | --grid | --flow-field | --where | --max-error | --arc-error | --max-clearance | --threads | --samples | --z-scale | --band | --cell | --stock | --before | --max-rest | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit | --step-over | --scallop | --angle | --tolerance | --allowance | --bottom | --feed | --plunge-feed | --spindle | --safe-height | --clearance | --decimals | --tool-number | --step-down | --ramp-angle | --stock-top | --stock-margin) return ;;
+    --radius | --level | --step | --from | --to | --distance | --from | --to | --ceiling | --max-slope | --step | --snap | --grid | --flow-field | --where | --max-error | --arc-error | --max-clearance | --mitre-limit | --threads | --samples | --z-scale | --band | --cell | --stock | --before | --max-rest | --width | --curve-points | --n | --count | --seed | --steps | --restarts | --limit | --step-over | --scallop | --angle | --tolerance | --allowance | --bottom | --feed | --plunge-feed | --spindle | --safe-height | --clearance | --decimals | --tool-number | --step-down | --ramp-angle | --stock-top | --stock-margin) return ;;
   esac
   local command=("$verb")
   if [[ $verb == lab ]]; then

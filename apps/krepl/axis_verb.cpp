@@ -104,8 +104,8 @@ int run_axis(const AxisOptions& options, Session& session) {
   session.detail(fmt::format("diagram    {:.3f} s: {} faces, {} edges, {} vertices", building.seconds(), c.faces,
                              diagram->edge_count(), diagram->vertex_count()));
   session.detail(fmt::format(
-      "faces      {} candidates; {} faces and {} vertices in quadruple precision, {} in 320 bits, {} links reconciled",
-      c.candidates, c.faces_in_quadruple, c.vertices_in_quadruple, c.faces_in_320_bits, c.links_reconciled));
+      "faces      {} candidates; {} done again in pairs of doubles, {} in quadruple precision, {} in 320 bits; {} vertices, {} links reconciled",
+      c.candidates, c.faces_in_pairs, c.faces_in_quadruple, c.faces_in_320_bits, c.vertices_in_quadruple, c.links_reconciled));
 
   AxisLines lines(*diagram, *plan, options.all);
   Status written = output::write_axis(

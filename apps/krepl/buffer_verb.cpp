@@ -10,6 +10,7 @@
 #include "feature_buffer.hpp"
 #include "network_options.hpp"
 #include "output_target.hpp"
+#include "shape_options.hpp"
 #include "stopwatch.hpp"
 #include "verbs.hpp"
 
@@ -21,6 +22,7 @@ struct BufferOptions {
   input::NetworkRequest input;
   std::string output, radius, max_error, format, engine = "auto";
   bool no_pieces = false, separate = false;
+  ShapeArguments shape;
   FeatureOptions features;
 };
 
@@ -28,6 +30,7 @@ struct BufferOptions {
 struct BufferPlan {
   std::vector<double> radii;
   std::string engine;
+  ShapeOptions shape;
   output::ZoneFormat format;
   output::ZoneFileOptions file;
 };
@@ -46,15 +49,26 @@ Result<BufferPlan> make_plan(const BufferOptions& options) {
   BufferPlan plan;
   if (Status engine = check_engine(options.engine); !engine) return engine.error();
   if (!needs_features(options.features, options.radius)) {
-    Result<std::vector<double>> radii = parse_radii(options.radius);
+    Result<std::vector<double>> radii = parse_signed_radii(options.radius);
     if (!radii) return radii.error();
     plan.radii = *radii;
+  }
+  Result<ShapeOptions> shape = parse_shape(options.shape);
+  if (!shape) return shape.error();
+  plan.shape = *shape;
+  if (!is_plain(plan.shape, plan.radii)) {
+    if (needs_features(options.features, options.radius))
+      return Error{ErrorCode::usage, "caps, joins, sides and rings do not go with radii or zones of single features", "",
+                   "leave one of them out"};
+    if (options.engine == "voronoi" || options.engine == "sweep")
+      return Error{ErrorCode::usage, "--engine " + options.engine + " makes whole round zones only", "", "leave --engine out"};
   }
   plan.engine = options.engine;
   if (!options.max_error.empty()) {
     Result<double> max_error = parse_positive("--max-error", options.max_error);
     if (!max_error) return max_error.error();
     plan.file.max_error = *max_error;
+    plan.shape.max_error = *max_error;
   }
   Result<output::ZoneFormat> format = output::find_zone_format(options.output, options.format);
   if (!format) return Error{format.error().code, options.output + ": " + format.error().what, "", format.error().remedy};
@@ -89,7 +103,7 @@ void tell_diagram(const VoronoiDiagram& diagram, double seconds, Session& sessio
   const VoronoiCounters& c = diagram.counters();
   session.detail(fmt::format("diagram    {:.3f} s: {} faces, {} edges, {} vertices", seconds, c.faces,
                              diagram.edge_count(), diagram.vertex_count()));
-  session.detail(fmt::format("faces      {} candidates; {} faces and {} vertices in quadruple precision, {} in 320 bits, {} links reconciled", c.candidates, c.faces_in_quadruple, c.vertices_in_quadruple, c.faces_in_320_bits, c.links_reconciled));
+  session.detail(fmt::format("faces      {} candidates; {} done again in pairs of doubles, {} in quadruple precision, {} in 320 bits; {} vertices, {} links reconciled", c.candidates, c.faces_in_pairs, c.faces_in_quadruple, c.faces_in_320_bits, c.vertices_in_quadruple, c.links_reconciled));
 }
 
 void tell_sweep(const SweepCounters& c, Session& session) {
@@ -111,7 +125,7 @@ std::string summary_line(const Network& network, const std::vector<Zone>& zones,
   for (const Zone& zone : zones) {
     std::size_t arcs = 0;
     for (std::uint32_t e = 0; e < zone.piece_count(); ++e) arcs += zone.piece(e).kind == Zone::Kind::arc ? 1 : 0;
-    text += fmt::format("; radius {}: {} rings, {} holes, {} arcs, area {:.10g}", zone.radius(), zone.ring_count(),
+    text += fmt::format("; radius {}: {} rings, {} holes, {} arcs, area {:.10g}", zone.signed_radius(), zone.ring_count(),
                         zone.hole_count(), arcs, zone.area());
   }
   return text + fmt::format("; {:.3f} s", seconds);
@@ -166,7 +180,9 @@ int run_buffer(const BufferOptions& options, Session& session) {
   for (const std::string& note : data->notes) session.note(in_name, note);
   tell_cleaning(*data, reading.seconds(), session);
 
-  Result<std::vector<Zone>> zones = compute_zones(*data, *plan, session);
+  Result<std::vector<Zone>> zones =
+      is_plain(plan->shape, plan->radii) ? compute_zones(*data, *plan, session)
+                                         : shaped_zones(data->network, plan->radii, plan->shape, in_name, session);
   if (!zones) return session.fail(in_name, zones.error());
 
   Stopwatch writing;
@@ -197,10 +213,11 @@ void add_buffer_verb(CLI::App& program, Session& session) {
       ->required();
   verb->add_option("--radius", options->radius,
                    "Radius of the disk, in the unit of the coordinates; several, or FIRST:LAST:STEP, give nested zones; "
-                   "or an expression of fields, a radius for each feature: \"width / 2 + 5\"")
+                   "negative: polygons are shrunk; or an expression of fields, a radius for each feature: \"width / 2 + 5\"")
       ->type_name("R[,R2,...]");
   add_feature_options(*verb, options->features);
   add_network_options(*verb, options->input, options->format);
+  add_shape_options(*verb, options->shape);
   verb->add_option("--max-error", options->max_error, "Formats without arcs: largest deviation (default: radius / 1000)")
       ->type_name("LENGTH");
   verb->add_flag("--separate", options->separate, "A feature for each polygon, not for each radius");

@@ -26,8 +26,8 @@ Result<std::vector<double>> levels_of(const ContourVerbOptions& options, const T
   const double first = std::ceil((terrain.lowest().z + terrain.origin().z) / *step);
   const double last = std::floor((terrain.highest().z + terrain.origin().z + radius) / *step);
   if (!(last - first < most_levels))
-    return Error{ErrorCode::usage, fmt::format("--step {} would give {:.0f} levels", options.step, last - first + 1), "",
-                 "give a larger step"};
+    return Error{ErrorCode::usage, fmt::format("--step {} would give {:.0f} levels", options.step, last - first + 1),
+                 "", "give a larger step"};
   std::vector<double> levels;
   for (double i = first; i <= last; ++i) levels.push_back(i * *step);
   return levels;
@@ -93,7 +93,8 @@ void add_contour_verb(CLI::App& program, Session& session) {
   verb->add_option("--step", options->step, "All whole multiples of this height instead")->type_name("DZ");
   verb->add_option("--ties", options->ties,
                    "What lies exactly at a level belongs to the high (default) or the low side")
-      ->check(CLI::IsMember({"high", "low"}))->type_name("SIDE");
+      ->check(CLI::IsMember({"high", "low"}))
+      ->type_name("SIDE");
   session.add_common_options(*verb);
   session.on_run(*verb, [options, &session] { return run_contour(*options, session); });
 }

@@ -15,8 +15,10 @@ void add_cut_options(CLI::App& verb, CutOptions& options, const char* result) {
   add_terrain_options(verb, options.terrain);
   verb.add_option("OUT", options.output, result)->required();
   verb.add_option("--radius", options.radius, "Radius of the ball, in the unit of the coordinates")
-      ->required()->type_name("R");
-  verb.add_option("--format", options.format, "Format of the result, in place of what its extension says")->type_name("NAME");
+      ->required()
+      ->type_name("R");
+  verb.add_option("--format", options.format, "Format of the result, in place of what its extension says")
+      ->type_name("NAME");
   verb.add_option("--max-error", options.max_error,
                   "Largest deviation of chords where a format has no true curve (default: radius / 1000)")
       ->type_name("LENGTH");
@@ -47,7 +49,8 @@ std::unique_ptr<CutInput> read_and_compute(const CutOptions& options, CutPlan& p
     status = session.fail(file, error);
     return nullptr;
   };
-  if (Status target = check_target(options.output, {plan.request.path}); !target) return fail(options.output, target.error());
+  if (Status target = check_target(options.output, {plan.request.path}); !target)
+    return fail(options.output, target.error());
   const Stopwatch reading;
   const Result<input::TerrainFile> file = input::read_terrain(plan.request, session.context("reading"));
   if (!file) return fail(options.terrain.name(), file.error());
@@ -57,7 +60,8 @@ std::unique_ptr<CutInput> read_and_compute(const CutOptions& options, CutPlan& p
   const Stopwatch computing;
   Result<Surface> surface = compute_surface(file->terrain, {plan.radius}, session.context("computing"));
   if (!surface) return fail(options.terrain.name(), surface.error());
-  session.detail(fmt::format("surface    {:.3f} s: {} faces", computing.seconds(), surface->subdivision().face_count() - 1));
+  session.detail(
+      fmt::format("surface    {:.3f} s: {} faces", computing.seconds(), surface->subdivision().face_count() - 1));
   const Stopwatch indexing;
   Result<SurfaceCutter> cutter =
       SurfaceCutter::build(std::make_shared<const Surface>(std::move(*surface)), session.context("indexing"));
@@ -73,7 +77,8 @@ Result<std::vector<double>> parse_numbers(const std::string& option, const std::
     double value = 0;
     const auto [next, failure] = std::from_chars(at, end, value);
     if (failure != std::errc{} || !std::isfinite(value) || (next != end && *next != ','))
-      return Error{ErrorCode::usage, option + " '" + text + "' is not a list of finite numbers separated by commas", "", ""};
+      return Error{ErrorCode::usage, option + " '" + text + "' is not a list of finite numbers separated by commas", "",
+                   ""};
     numbers.push_back(value);
     if (next == end) return numbers;
     at = next + 1;

@@ -32,7 +32,8 @@ struct CutInput {
 
 void add_cut_options(CLI::App& verb, CutOptions& options, const char* result);
 Result<CutPlan> cut_plan(const CutOptions& options);
-/// Reads the terrain and computes its surface; null after a failure that has been told, whose exit status goes to `status`.
+/// Reads the terrain and computes its surface; null after a failure that has been told, whose exit status goes to
+/// `status`.
 std::unique_ptr<CutInput> read_and_compute(const CutOptions& options, CutPlan& plan, Session& session, int& status);
 /// The numbers of a list separated by commas, all finite. Errors: usage.
 Result<std::vector<double>> parse_numbers(const std::string& option, const std::string& text);

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <numeric>
 
+#include "input/feature_reader.hpp"
 #include "input/flow_field.hpp"
 #include "input/network_reader.hpp"
 #include "krepl/river.hpp"
@@ -256,6 +257,9 @@ int run_rivers(const RiversOptions& options, Session& session) {
   Result<std::vector<Zone>> zones = compute_zones(*rivers, *plan, session);
   if (!zones) return session.fail(in_name, zones.error());
   plan->file.crs = data->crs;
+  auto attributes = input::read_attributes(options.input, session.context("reading"));
+  if (!attributes) return session.fail(in_name, attributes.error());
+  plan->file.attributes = std::move(*attributes);
   if (Status written = write(options, *plan, *rivers, *zones, session); !written) {
     return session.fail(output_name(options.output), written.error());
   }

@@ -24,8 +24,9 @@ Result<Point> parse_place(const std::string& option, const std::string& text) {
 
 Result<std::vector<SurfaceCutter::Line>> lines_of(const SectionVerbOptions& options) {
   if (options.from.size() != options.to.size())
-    return Error{ErrorCode::usage, fmt::format("--from is given {} times, --to {} times", options.from.size(), options.to.size()),
-                 "", "give both ends of each line"};
+    return Error{ErrorCode::usage,
+                 fmt::format("--from is given {} times, --to {} times", options.from.size(), options.to.size()), "",
+                 "give both ends of each line"};
   std::vector<SurfaceCutter::Line> lines;
   for (std::size_t i = 0; i < options.from.size(); ++i) {
     const Result<Point> from = parse_place("--from", options.from[i]), to = parse_place("--to", options.to[i]);
@@ -66,8 +67,8 @@ int run_section(const SectionVerbOptions& options, Session& session) {
     chains += section.chain_count();
     pieces += section.pieces.size();
   }
-  session.summary(fmt::format("{} triangles; {} lines: {} chains of {} pieces{}; {:.3f} s", input->terrain->triangle_count(),
-                              lines->size(), chains, pieces,
+  session.summary(fmt::format("{} triangles; {} lines: {} chains of {} pieces{}; {:.3f} s",
+                              input->terrain->triangle_count(), lines->size(), chains, pieces,
                               report->has_chords ? fmt::format(", curves within {:.3g}", plan->file.max_error) : "",
                               total.seconds()),
                   options.cut.output == "-");
@@ -80,11 +81,20 @@ void add_section_verb(CLI::App& program, Session& session) {
   auto options = std::make_shared<SectionVerbOptions>();
   CLI::App* verb = program.add_subcommand("section", "The surface of a ball's centre along lines, of true curves");
   add_cut_options(*verb, options->cut,
-                  "Result: .csv (pieces), .gpkg .geojson .shp ... (lines in space), .wkt, .svg .dxf (distance and height), or - (CSV)");
+                  "Result: .csv (pieces), .gpkg .geojson .shp ... (lines in space), .wkt, .svg .dxf (distance and "
+                  "height), or - (CSV)");
   verb->add_option("--from", options->from, "Start of a line; once for each")
-      ->required()->type_name("X,Y")->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->required()
+      ->type_name("X,Y")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   verb->add_option("--to", options->to, "End of a line; once for each")
-      ->required()->type_name("X,Y")->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->required()
+      ->type_name("X,Y")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   session.add_common_options(*verb);
   session.on_run(*verb, [options, &session] { return run_section(*options, session); });
 }

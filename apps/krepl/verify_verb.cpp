@@ -14,6 +14,7 @@
 #include "input/subdivision_file.hpp"
 #include "network_options.hpp"
 #include "krepl/cutter.hpp"
+#include "shape_options.hpp"
 #include "terrain_options.hpp"
 #include "verbs.hpp"
 #include "verify_features.hpp"
@@ -32,6 +33,7 @@ struct VerifyOptions {
   verify::InputRequest input;
   std::string radius, max_error, tool, control_point;
   TerrainOptions terrain;
+  ShapeArguments shape;
   std::uint64_t samples = 0;
   FeatureOptions features;
 };
@@ -113,6 +115,14 @@ Error violation(const char* what, double radius, const std::vector<verify::Check
   return error;
 }
 
+verify::ShapeQuestion shape_question(const ShapeOptions& shape, double radius) {
+  verify::ShapeQuestion question;
+  question.distance = radius, question.mitre_limit = shape.mitre_limit, question.ring = shape.ring;
+  question.cap = verify::ShapeQuestion::Cap(shape.cap), question.join = verify::ShapeQuestion::Join(shape.join);
+  question.side = verify::ShapeQuestion::Side(shape.side);
+  return question;
+}
+
 /// All polygons are one zone, whose radius is the largest of the features'.
 ZonesByRadius as_one_zone(std::vector<input::ResultZone> zones, const std::vector<verify::InputPart>& parts) {
   double largest = 0;
@@ -127,7 +137,7 @@ int verify_zones(const VerifyOptions& options, Session& session) {
   std::vector<double> radii;
   const bool varied = !options.input.radius_field.empty() || !options.input.radius_expression.empty();
   if (!options.radius.empty() && !varied) {
-    auto parsed = parse_radii(options.radius);
+    auto parsed = parse_signed_radii(options.radius);
     if (!parsed) return session.fail("", parsed.error());
     radii = std::move(*parsed);
   }
@@ -138,10 +148,12 @@ int verify_zones(const VerifyOptions& options, Session& session) {
     if (!parsed) return session.fail("", parsed.error());
     check.max_error = *parsed;
   }
+  auto shape = parse_shape(options.shape);
+  if (!shape) return session.fail("", shape.error());
   const FeatureOptions& f = options.features;
   if (f.per_feature || !f.dissolve_by.empty() || !f.owner.empty())
     return verify_features({options.result, options.input, f, radii, check.max_error, options.samples}, session);
-  auto zones = input::read_zones(options.result);
+  auto zones = input::read_zones(options.result, input::EmptyZones::keep);
   if (!zones) return session.fail(options.result, zones.error());
   auto parts = verify::read_parts(options.input, session.context("reading"));
   session.finish_progress();
@@ -155,7 +167,12 @@ int verify_zones(const VerifyOptions& options, Session& session) {
   int status = 0;
   for (const auto& [radius, polygons] : *groups) {
     check.radius = radius;
-    auto report = verify::check_zone(polygons, obstacle, check, session.context("checking"));
+    // Parabolas in the border of a one-sided zone are chords (docs/shape.md).
+    if (shape->side != Side::both && options.max_error.empty()) check.max_error = 2e-6 * radius;
+    const bool plain = is_plain(*shape, {radius});
+    auto report = plain ? verify::check_zone(polygons, obstacle, check, session.context("checking"))
+                        : verify::check_shape(polygons, *parts, shape_question(*shape, radius), check,
+                                              session.context("checking"));
     session.finish_progress();
     if (!report) return session.fail(options.result, report.error());
     print(session, *report);
@@ -332,6 +349,7 @@ void add_verify_verb(CLI::App& program, Session& session) {
                    "Number of points whose membership is tested, or at which the ball is let down (default: some "
                    "seconds' worth)")
       ->type_name("N");
+  add_shape_options(*verb, options->shape);
   verb->add_option("--max-error", options->max_error,
                    "Deviation allowed to a format without arcs, or depth to a tool path (default: none)")
       ->type_name("E");

@@ -79,9 +79,9 @@ void measure(std::size_t wanted) {
   const double krepl = (built - start) * 1e6 / double(n);
   std::printf(
       "n = %8zu: krepl %.2f us a segment, Boost.Polygon %.2f (%.1f times); %.1f candidates a face, %.2g of the faces "
-      "in quadruple precision\n",
+      "again in pairs of doubles\n",
       n, krepl, boost, boost / krepl, double(diagram->counters().candidates) / double(diagram->face_count()),
-      double(diagram->counters().faces_in_quadruple) / double(diagram->face_count()));
+      double(diagram->counters().faces_in_pairs) / double(diagram->face_count()));
   const int radii = wanted > 100000 ? 10 : 100;
   const double before = processor_time();
   for (int i = 1; i <= radii; ++i) diagram->zone({200.0 * i}, context).value();

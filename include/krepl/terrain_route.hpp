@@ -65,7 +65,7 @@ struct TerrainRoute {
 /// and cutting corners as long as what is left is proven: near a shortest route, not proven to be one. Passages that
 /// are narrower than the lattice's step may be missed.
 ///
-/// Errors: options out of range (usage); an end that is not finite, not over the terrain, or where the ball overlaps
+/// Errors: options out of range, or a cutter that is no ball (usage); an end that is not finite, not over the terrain, or where the ball overlaps
 /// the terrain (how deep); a ceiling below an end; no route in the lattice; more than ten million nodes; cancelled.
 Result<TerrainRoute> compute_terrain_route(const DropCutter& cutter, const TerrainRouteOptions& options,
                                            const Context& context = {});

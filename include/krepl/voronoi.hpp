@@ -19,9 +19,10 @@ namespace krepl {
 
 /// How a diagram came about. Printed by `krepl --verbose`.
 struct VoronoiCounters {
-  std::uint64_t faces = 0;                  ///< sides of segments, and vertices with a face of their own
-  std::uint64_t candidates = 0;             ///< sites looked at closely for them
-  std::uint64_t faces_in_quadruple = 0;     ///< computed again because neighbours disagreed in double precision
+  std::uint64_t faces = 0;           ///< sides of segments, and vertices with a face of their own
+  std::uint64_t candidates = 0;      ///< sites looked at closely for them
+  std::uint64_t faces_in_pairs = 0;  ///< computed again, in pairs of doubles: neighbours disagreed in double precision
+  std::uint64_t faces_in_quadruple = 0;     ///< of them, once more, because they still disagreed
   std::uint64_t vertices_in_quadruple = 0;  ///< evaluated again because the faces around them disagreed on the place
   std::uint64_t faces_in_320_bits = 0;      ///< of them, once more, because they still disagreed
   std::uint64_t links_reconciled = 0;       ///< below 2^-36 of the extent, seen from one side only

@@ -41,16 +41,27 @@ struct ZoneCounters {
 class Zone {
  public:
   enum class Kind : std::uint8_t { segment, arc };
+  /// What a piece is to the input. Zones of compute_zone have offsets only; the others come from krepl/shape.hpp.
+  enum class Role : std::uint8_t {
+    offset,  ///< parallel to a segment, or an arc about a vertex, at the zone's radius
+    input,   ///< along a segment of the input
+    end,     ///< across the end of a line: a flat or square cap, or the end of a one-sided zone
+    bevel,   ///< cuts a corner off
+    between  ///< as far from one site as from another, where a one-sided zone meets what belongs to the other side
+  };
 
   /// One true piece of the boundary, in absolute coordinates. An arc runs counter-clockwise from start to end about
-  /// center (start == end: the full circle).
+  /// center (start == end: the full circle), unless it is `clockwise`.
   struct Piece {
     Kind kind;
     Point start, end;
     Point center;          ///< arcs only
-    std::uint32_t source;  ///< the segment (kind segment) or vertex (kind arc) of network() that causes it
+    std::uint32_t source;  ///< the segment or vertex (`from_vertex`) of network() that causes it
     bool reversed;         ///< segments only: the piece runs from the source segment's b to its a
     double radius = 0;     ///< of the disk that the source is widened by
+    bool clockwise = false;    ///< arcs only: where a polygon shrinks, arcs run round their centre the other way
+    bool from_vertex = false;  ///< source is a vertex: all arcs about one, ends and bevels
+    Role role = Role::offset;
   };
 
   /// A connected part of the zone: one outer ring and its holes.
@@ -61,6 +72,8 @@ class Zone {
 
   /// Of the disk; the largest where the parts of the network have radii of their own.
   double radius() const { return radius_; }
+  /// The radius with a sign: negative where polygons were shrunk.
+  double signed_radius() const { return inward_ ? -radius_ : radius_; }
   /// The smallest.
   double least_radius() const;
   /// Largest of radius and extent: the S of the accuracy contract.
@@ -69,7 +82,7 @@ class Zone {
   const Subdivision& subdivision() const { return subdivision_; }
   const ZoneCounters& counters() const { return counters_; }
 
-  std::size_t piece_count() const { return element_.size(); }
+  std::size_t piece_count() const { return vertex_.size(); }
   Piece piece(std::uint32_t e) const;
   std::size_t ring_count() const { return ring_begin_.size() - 1; }
   std::uint32_t ring_begin(std::uint32_t r) const { return ring_begin_[r]; }
@@ -92,10 +105,12 @@ class Zone {
   double ring_area(std::uint32_t r) const;
 
   double radius_ = 0;
+  bool inward_ = false;
   std::shared_ptr<const Network> network_;
   std::shared_ptr<const zone::VariedSites> varied_;  // none where there is one radius
   std::vector<Point> vertex_;           // relative to the network's origin; vertex e starts piece e
-  std::vector<std::uint32_t> element_;  // per piece: the boundary element it lies on
+  std::vector<std::uint32_t> element_;  // per piece: the boundary element it lies on; or, of other shapes,
+  std::vector<Piece> shaped_;           // the pieces themselves, relative to the network's origin
   std::vector<std::uint32_t> ring_begin_;
   std::vector<bool> ring_is_hole_;
   std::vector<std::uint32_t> polygon_outer_, polygon_hole_begin_, polygon_hole_;

@@ -5,6 +5,7 @@
 #include "input/collected.hpp"
 #include "input/field_values.hpp"
 #include "input/projection.hpp"
+#include "input/whole_file.hpp"
 #include "ogr/spatial_reference.hpp"
 
 namespace krepl::input {
@@ -60,6 +61,23 @@ Status check_group_field(const std::string& name, const FeatureData& data) {
 }
 
 }  // namespace
+
+Result<std::unordered_map<std::int64_t, std::shared_ptr<const OGRFeature>>> read_attributes(const NetworkRequest& request,
+                                                                                           const Context& context) {
+  std::unordered_map<std::int64_t, std::shared_ptr<const OGRFeature>> rows;
+  if (is_stream(request.path)) return rows;
+  auto source = open_geometry_source(request.path, {request.layer, request.where}, context);
+  if (!source) return source.error();
+  for (;;) {
+    if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while reading", "", ""};
+    auto item = (*source)->next();
+    if (!item) return item.error();
+    if (!item->has_value()) return rows;
+    const GeometrySource::Item& record = **item;
+    if (record.feature == nullptr) return rows;
+    if (record.geometry != nullptr) rows.emplace(record.number, attributes_of(*record.feature));
+  }
+}
 
 Result<FeatureData> read_features(const FeatureRequest& request, const Context& context) {
   const NetworkRequest& network = request.network;

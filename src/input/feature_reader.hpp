@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "input/network_reader.hpp"
@@ -32,6 +33,11 @@ struct FeatureData {
 
   std::size_t size() const { return place.size(); }
 };
+
+/// The attributes of all features with geometry, by their numbers; none for WKT, WKB and standard input, which cannot be
+/// read a second time.
+Result<std::unordered_map<std::int64_t, std::shared_ptr<const OGRFeature>>> read_attributes(const NetworkRequest& request,
+                                                                                           const Context& context = {});
 
 /// As read_network, with attributes. Errors also: a field that is not there (lists those there are), an expression that
 /// is none; a radius that is null, no number, not finite, zero or negative, with the feature's name.

@@ -85,14 +85,14 @@ std::int64_t integer_field(const OGRFeature& feature, const char* name) {
 /// With --separate a zone is several features, one a polygon, which agree in their radius.
 bool continues(const ResultZone& zone, std::optional<double> radius) { return radius && zone.radius == radius; }
 
-Result<std::vector<ResultZone>> collect_zones(GeometrySource& source, bool merge) {
+Result<std::vector<ResultZone>> collect_zones(GeometrySource& source, bool merge, EmptyZones empty) {
   std::vector<ResultZone> zones;
   for (;;) {
     auto item = source.next();
     if (!item) return item.error();
     if (!item->has_value()) break;
     const GeometrySource::Item& record = **item;
-    if (record.geometry == nullptr || record.geometry->IsEmpty()) continue;
+    if (record.geometry == nullptr || (record.geometry->IsEmpty() && empty == EmptyZones::drop)) continue;
     std::optional<double> radius = merge ? std::nullopt : number_field(record.feature, "zone_radius");
     if (!radius) radius = number_field(record.feature, "radius");
     auto known =
@@ -192,14 +192,14 @@ Result<std::vector<ResultZone>> read_zone_features(const std::string& path) {
   bool has_pieces = false;
   auto source = open_zones(path, has_pieces);
   if (!source) return source.error();
-  return collect_zones(**source, false);
+  return collect_zones(**source, false, EmptyZones::drop);
 }
 
-Result<std::vector<ResultZone>> read_zones(const std::string& path) {
+Result<std::vector<ResultZone>> read_zones(const std::string& path, EmptyZones empty) {
   bool has_pieces = false;
   auto source = open_zones(path, has_pieces);
   if (!source) return source.error();
-  Result<std::vector<ResultZone>> zones = collect_zones(**source, true);
+  Result<std::vector<ResultZone>> zones = collect_zones(**source, true, empty);
   if (!zones || !has_pieces) return zones;
 
   Result<ProvenanceMap> provenance = read_provenance(path);

@@ -35,8 +35,9 @@ struct ResultZone {
 };
 
 /// Reads the zones in a vector file that krepl (or other software) wrote: one per feature, true curves kept; features of equal
-/// radius make one zone.
-Result<std::vector<ResultZone>> read_zones(const std::string& path);
+/// radius make one zone. Zones without polygons are left out unless they are asked for.
+enum class EmptyZones { drop, keep };
+Result<std::vector<ResultZone>> read_zones(const std::string& path, EmptyZones empty = EmptyZones::drop);
 
 /// The same with each feature a zone of its own, in the file's order; without the provenance of pieces. Where the input
 /// of the result had a field `radius`, the zone's is read from `zone_radius`.

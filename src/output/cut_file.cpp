@@ -16,15 +16,22 @@ bool is_csv(std::string name) {
   return name == "csv";
 }
 
-Result<CutFileReport> write(const std::string& path, const CutDrawing& drawing, const CutFormat& format, const Context& context) {
+Result<CutFileReport> write(const std::string& path, const CutDrawing& drawing, const CutFormat& format,
+                            const Context& context) {
   using Kind = ZoneFormat::Kind;
   CutFileReport report;
   Status written = std::monostate{};
-  if (format.csv) written = write_cut_csv(path, drawing, context);
-  else if (format.vector.kind == Kind::svg) written = write_cut_svg(path, drawing, report, context);
-  else if (format.vector.kind == Kind::dxf) written = write_cut_dxf(path, drawing, report, context);
-  else if (format.vector.kind == Kind::wkt) written = write_cut_wkt(path, drawing, report, context);
-  else written = write_cut_layer(path, format.vector.kind == Kind::geojson ? "GeoJSON" : format.vector.driver, drawing, report, context);
+  if (format.csv)
+    written = write_cut_csv(path, drawing, context);
+  else if (format.vector.kind == Kind::svg)
+    written = write_cut_svg(path, drawing, report, context);
+  else if (format.vector.kind == Kind::dxf)
+    written = write_cut_dxf(path, drawing, report, context);
+  else if (format.vector.kind == Kind::wkt)
+    written = write_cut_wkt(path, drawing, report, context);
+  else
+    written = write_cut_layer(path, format.vector.kind == Kind::geojson ? "GeoJSON" : format.vector.driver, drawing,
+                              report, context);
   if (!written) return written.error();
   return report;
 }
@@ -40,9 +47,12 @@ Result<CutFormat> find_cut_format(const std::string& path, const std::string& as
     return format;
   }
   const Result<ZoneFormat> vector = find_zone_format(path, asked);
-  if (!vector) return Error{vector.error().code, vector.error().what, vector.error().where, "choose csv, gpkg, fgb, wkt, geojson, shp, svg, dxf or the name of a GDAL vector driver"};
+  if (!vector)
+    return Error{vector.error().code, vector.error().what, vector.error().where,
+                 "choose csv, gpkg, fgb, wkt, geojson, shp, svg, dxf or the name of a GDAL vector driver"};
   if (vector->kind == ZoneFormat::Kind::wkb)
-    return Error{ErrorCode::usage, "lines cannot go to format wkb", "", "choose csv, gpkg, fgb, wkt, geojson, shp, svg or dxf"};
+    return Error{ErrorCode::usage, "lines cannot go to format wkb", "",
+                 "choose csv, gpkg, fgb, wkt, geojson, shp, svg or dxf"};
   return CutFormat{false, *vector};
 }
 
@@ -56,8 +66,10 @@ Result<CutFileReport> write_contours(const std::string& path, std::span<const Co
   for (std::size_t c = 0; c < contours.size(); ++c) {
     const Contour& contour = contours[c];
     for (std::size_t r = 0; r < contour.ring_count(); ++r) {
-      const std::ptrdiff_t parent = contour.ring_parent[r] == Contour::none ? -1 : std::ptrdiff_t(contour.ring_parent[r]);
-      drawing.lines.push_back({c, r, contour.level + terrain.origin().z, true, contour.ring_is_hole[r], parent, contour.ring(r)});
+      const std::ptrdiff_t parent =
+          contour.ring_parent[r] == Contour::none ? -1 : std::ptrdiff_t(contour.ring_parent[r]);
+      drawing.lines.push_back(
+          {c, r, contour.level + terrain.origin().z, true, contour.ring_is_hole[r], parent, contour.ring(r)});
     }
   }
   return write(path, drawing, format, context);
@@ -71,15 +83,21 @@ Result<CutFileReport> write_sections(const std::string& path, std::span<const Se
   drawing.sections = sections;
   drawing.options = options;
   for (std::size_t s = 0; s < sections.size(); ++s) {
-    for (std::size_t c = 0; c < sections[s].chain_count(); ++c) drawing.lines.push_back({s, c, 0, false, false, -1, sections[s].chain(c)});
+    for (std::size_t c = 0; c < sections[s].chain_count(); ++c)
+      drawing.lines.push_back({s, c, 0, false, false, -1, sections[s].chain(c)});
   }
   return write(path, drawing, format, context);
 }
 
 PlanePiece in_plane(const CutDrawing& drawing, const CutLine& line, const CutPiece& piece) {
   const auto map = [&](auto&& along) {
-    return PlanePiece{piece.kind, along(piece.start, true), along(piece.end, true), along(piece.centre, true),
-                      {along(piece.axis[0], false), along(piece.axis[1], false)}, piece.from, piece.to};
+    return PlanePiece{piece.kind,
+                      along(piece.start, true),
+                      along(piece.end, true),
+                      along(piece.centre, true),
+                      {along(piece.axis[0], false), along(piece.axis[1], false)},
+                      piece.from,
+                      piece.to};
   };
   if (drawing.of_contours) return map([](Point3 p, bool) { return Point{p.x, p.y}; });
   const Section& section = drawing.sections[line.cut];

@@ -17,8 +17,8 @@ struct CutFormat {
   const std::string& name() const { return vector.name; }
 };
 
-/// The format for a path, or the one asked for: csv, gpkg, fgb, wkt, geojson, shp, svg, dxf or the name of a GDAL vector
-/// driver. `-` without a name is CSV. Errors are of code usage.
+/// The format for a path, or the one asked for: csv, gpkg, fgb, wkt, geojson, shp, svg, dxf or the name of a GDAL
+/// vector driver. `-` without a name is CSV. Errors are of code usage.
 Result<CutFormat> find_cut_format(const std::string& path, const std::string& asked);
 
 struct CutFileOptions {
@@ -31,12 +31,14 @@ struct CutFileReport {
   std::vector<std::string> notes;
 };
 
-/// Writes contours of one terrain, a line a ring, or sections, a line a chain. In the plane of a drawing (svg, dxf) a section
-/// has the distance along its line to the right and z upwards. The file appears whole or not at all. Errors: whatever
-/// keeps the file from being written; wkb (usage); cancelled.
+/// Writes contours of one terrain, a line a ring, or sections, a line a chain. In the plane of a drawing (svg, dxf) a
+/// section has the distance along its line to the right and z upwards. The file appears whole or not at all. Errors:
+/// whatever keeps the file from being written; wkb (usage); cancelled.
 Result<CutFileReport> write_contours(const std::string& path, std::span<const Contour> contours, const Terrain& terrain,
-                                     const CutFormat& format, const CutFileOptions& options, const Context& context = {});
+                                     const CutFormat& format, const CutFileOptions& options,
+                                     const Context& context = {});
 Result<CutFileReport> write_sections(const std::string& path, std::span<const Section> sections, const Terrain& terrain,
-                                     const CutFormat& format, const CutFileOptions& options, const Context& context = {});
+                                     const CutFormat& format, const CutFileOptions& options,
+                                     const Context& context = {});
 
 }  // namespace krepl::output

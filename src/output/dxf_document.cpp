@@ -247,7 +247,7 @@ void DxfDocument::finish() {
 
 std::vector<DxfDocument::Vertex> DxfDocument::arc_vertices(const Zone::Piece& arc) {
   const std::vector<Point> ends = arc_ends(arc, std::numbers::pi);
-  const double step = arc_angle(arc) / static_cast<double>(ends.size() - 1);
+  const double step = (arc.clockwise ? -1 : 1) * arc_angle(arc) / static_cast<double>(ends.size() - 1);
   std::vector<Vertex> vertices;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) vertices.push_back({ends[i], std::tan(step / 4)});
   return vertices;

@@ -3,8 +3,8 @@
 #include <gdal_priv.h>
 
 #include <algorithm>
-#include <sstream>
 
+#include "output/kept_fields.hpp"
 #include "output/ogr_dataset.hpp"
 #include "output/output_stream.hpp"
 #include "output/zone_writers.hpp"
@@ -13,24 +13,10 @@ namespace krepl::output {
 
 namespace {
 
-/// Types that a driver says it can write; all where it does not say.
-bool knows_type(const std::string& driver_name, OGRFieldType type) {
-  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_name.c_str());
-  const char* types = driver != nullptr ? driver->GetMetadataItem(GDAL_DMD_CREATIONFIELDDATATYPES) : nullptr;
-  if (types == nullptr) return true;
-  std::istringstream words(types);
-  for (std::string word; words >> word;) {
-    if (word == OGRFieldDefn::GetFieldTypeName(type)) return true;
-  }
-  return false;
-}
-
-bool equal_names(const std::string& a, const std::string& b) { return EQUAL(a.c_str(), b.c_str()); }
-
 class FeatureWriter {
  public:
   FeatureWriter(const FeatureColumns& columns, OgrDataset& dataset, ZoneFileReport& report)
-      : columns_(columns), dataset_(dataset), report_(report) {}
+      : columns_(columns), dataset_(dataset), report_(report), kept_(columns.kept, columns.only) {}
 
   Status write(const NextRow& next) {
     // The driver would find out in quadratic time which ring is a hole; geometries have rings in their right sense.
@@ -49,74 +35,31 @@ class FeatureWriter {
   }
 
  private:
-  bool is_kept(const std::string& name) const {
-    return columns_.only.empty() || std::any_of(columns_.only.begin(), columns_.only.end(),
-                                                [&](const std::string& only) { return equal_names(only, name); });
-  }
-  bool is_taken(const std::string& name) const {
-    for (int i = 0; columns_.kept != nullptr && i < columns_.kept->GetFieldCount(); ++i) {
-      const char* kept = columns_.kept->GetFieldDefn(i)->GetNameRef();
-      if (is_kept(kept) && equal_names(kept, name)) return true;
-    }
-    return false;
-  }
-
   Status make_layer(bool curves) {
     std::vector<std::string> options;
     if (dataset_.driver() == "FlatGeobuf") options.emplace_back("SPATIAL_INDEX=NO");  // it would reorder the features
     if (dataset_.driver() == "GPKG") {
       // Names of the driver's own columns give way to fields of the input.
-      options.push_back(std::string("FID=") + (is_taken("fid") ? "krepl_fid" : "fid"));
-      options.push_back(std::string("GEOMETRY_NAME=") + (is_taken("geom") ? "krepl_geom" : "geom"));
+      options.push_back(std::string("FID=") + (kept_.has("fid") ? "krepl_fid" : "fid"));
+      options.push_back(std::string("GEOMETRY_NAME=") + (kept_.has("geom") ? "krepl_geom" : "geom"));
     }
     Result<OGRLayer*> layer = dataset_.create_layer("zone", curves ? wkbMultiSurface : wkbMultiPolygon, {}, options);
     if (!layer) return layer.error();
     layer_ = *layer;
     if (!dataset_.has_fields()) return std::monostate{};
-    const int kept = columns_.kept != nullptr ? columns_.kept->GetFieldCount() : 0;
-    for (int i = 0; i < kept; ++i) {
-      target_.push_back(-1);
-      if (Status made = keep_field(*columns_.kept->GetFieldDefn(i)); !made) return made;
-    }
+    if (Status made = kept_.create(*layer_, dataset_.driver(), report_.notes); !made) return made;
     for (const auto& added : columns_.added) {
-      const OGRFieldDefn field(is_taken(added.name) ? ("zone_" + std::string(added.name)).c_str() : added.name, added.type);
-      if (Status made = create(field, added_.emplace_back(-1)); !made) return made;
+      const std::string name = (kept_.has(added.name) ? "zone_" : "") + std::string(added.name);
+      const OGRFieldDefn field(name.c_str(), added.type);
+      if (Status made = create_field(*layer_, field, added_.emplace_back(-1)); !made) return made;
     }
     return std::monostate{};
-  }
-
-  Status keep_field(const OGRFieldDefn& from) {
-    if (!is_kept(from.GetNameRef())) return std::monostate{};
-    OGRFieldDefn field(&from);
-    field.SetUnique(FALSE);  // a feature may come several times
-    field.SetNullable(TRUE);
-    field.SetDefault(nullptr);
-    field.SetDomainName("");
-    if (!knows_type(dataset_.driver(), field.GetType())) {
-      report_.notes.push_back("note: " + dataset_.driver() + " has no type " +
-                              OGRFieldDefn::GetFieldTypeName(field.GetType()) + "; field " + field.GetNameRef() +
-                              " becomes text");
-      field.SetSubType(OFSTNone);
-      field.SetType(OFTString);
-      field.SetWidth(0);
-    }
-    return create(field, target_.back());
-  }
-
-  /// The driver may change the name (Shapefile cuts it), so fields go by number.
-  Status create(const OGRFieldDefn& field, int& number) {
-    number = layer_->GetLayerDefn()->GetFieldCount();
-    OGRFieldDefn copy(&field);
-    if (layer_->CreateField(&copy) == OGRERR_NONE && layer_->GetLayerDefn()->GetFieldCount() > number)
-      return std::monostate{};
-    return Error{ErrorCode::io, std::string("field ") + field.GetNameRef() + " cannot be written", "",
-                 "choose another format"};
   }
 
   Status add(ZoneRow& row) {
     OGRFeature feature(layer_->GetLayerDefn());
     if (dataset_.has_fields()) {
-      if (row.attributes != nullptr && !target_.empty()) feature.SetFieldsFrom(row.attributes, target_.data(), TRUE);
+      if (row.attributes != nullptr) kept_.copy(*row.attributes, feature);
       for (std::size_t i = 0; i < row.values.size(); ++i) feature.SetField(added_[i], row.values[i]);
     }
     feature.SetGeometryDirectly(row.geometry.release());
@@ -127,7 +70,8 @@ class FeatureWriter {
   OgrDataset& dataset_;
   ZoneFileReport& report_;
   OGRLayer* layer_ = nullptr;
-  std::vector<int> target_, added_;  // the layer's field for each kept (-1: not kept) and each added one
+  KeptFields kept_;
+  std::vector<int> added_;  // the layer's field for each added one
 };
 
 /// WKT: a geometry a line; WKB: one after the other. Neither holds attributes.

@@ -39,7 +39,7 @@ void Linearizer::append_arc(const Zone::Piece& arc, std::vector<Point>& points) 
   Point from{arc.start.x - arc.center.x, arc.start.y - arc.center.y};
   double first = std::atan2(from.y, from.x), distance = std::hypot(from.x, from.y);
   for (std::size_t i = 1; i < count; ++i) {
-    double direction = first + static_cast<double>(i) * step;
+    double direction = arc.clockwise ? first - static_cast<double>(i) * step : first + static_cast<double>(i) * step;
     points.push_back({arc.center.x + distance * std::cos(direction), arc.center.y + distance * std::sin(direction)});
   }
   points.push_back(arc.end);

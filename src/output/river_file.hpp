@@ -8,6 +8,7 @@
 #include "krepl/context.hpp"
 #include "krepl/river.hpp"
 #include "krepl/zone.hpp"
+#include "output/kept_fields.hpp"
 #include "output/zone_file.hpp"
 
 namespace krepl::output {
@@ -15,6 +16,7 @@ namespace krepl::output {
 struct RiverFileOptions {
   std::string crs;       ///< WKT of the coordinate system; empty: none
   bool reaches = false;  ///< reaches in place of sub-rivers; a GeoPackage has both anyway
+  AttributeRows attributes = {};  ///< of the input: reaches and sub-rivers keep those of the feature they come from
   double max_error = 0;  ///< zones in formats without curves: largest deviation; 0: a thousandth of the radius
 };
 

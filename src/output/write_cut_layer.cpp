@@ -30,12 +30,16 @@ class GeometryWriter {
     for (std::size_t i = 0; i < line.pieces.size();) {
       const bool arcs = line.pieces[i].kind == Kind::circle;
       std::unique_ptr<OGRSimpleCurve> run;
-      if (arcs) run = std::make_unique<OGRCircularString>();
-      else run = std::make_unique<OGRLineString>();
+      if (arcs)
+        run = std::make_unique<OGRCircularString>();
+      else
+        run = std::make_unique<OGRLineString>();
       add(*run, line.pieces[i].start);
       for (; i < line.pieces.size() && (line.pieces[i].kind == Kind::circle) == arcs; ++i) {
-        if (arcs) append_arc(line.pieces[i], *run);
-        else append_chords(line.pieces[i], *run);
+        if (arcs)
+          append_arc(line.pieces[i], *run);
+        else
+          append_chords(line.pieces[i], *run);
       }
       compound->addCurveDirectly(run.release());
     }
@@ -67,7 +71,9 @@ Status write_rows(OgrDataset& dataset, const CutDrawing& drawing, CutFileReport&
   const OGRwkbGeometryType type = curves ? wkbCompoundCurveZ : wkbLineString25D;
   Result<OGRLayer*> layer =
       drawing.of_contours
-          ? dataset.create_layer("contour", type, {{"level", OFTReal}, {"ring", OFTInteger64}, {"hole", OFTInteger}, {"parent", OFTInteger64}})
+          ? dataset.create_layer(
+                "contour", type,
+                {{"level", OFTReal}, {"ring", OFTInteger64}, {"hole", OFTInteger}, {"parent", OFTInteger64}})
           : dataset.create_layer("section", type, {{"section", OFTInteger64}, {"chain", OFTInteger64}});
   if (!layer) return layer.error();
   const GeometryWriter writer(drawing, report);
@@ -83,8 +89,10 @@ Status write_rows(OgrDataset& dataset, const CutDrawing& drawing, CutFileReport&
       row.SetField("section", GIntBig(line.cut));
       row.SetField("chain", GIntBig(line.number));
     }
-    if (curves) row.SetGeometryDirectly(writer.curves(line).release());
-    else row.SetGeometryDirectly(writer.chords(line).release());
+    if (curves)
+      row.SetGeometryDirectly(writer.curves(line).release());
+    else
+      row.SetGeometryDirectly(writer.chords(line).release());
     if (Status added = dataset.add(**layer, row); !added) return added;
   }
   return std::monostate{};
@@ -92,7 +100,8 @@ Status write_rows(OgrDataset& dataset, const CutDrawing& drawing, CutFileReport&
 
 }  // namespace
 
-Status write_cut_wkt(const std::string& path, const CutDrawing& drawing, CutFileReport& report, const Context& context) {
+Status write_cut_wkt(const std::string& path, const CutDrawing& drawing, CutFileReport& report,
+                     const Context& context) {
   Result<OutputStream> stream = OutputStream::open(path);
   if (!stream) return stream.error();
   const GeometryWriter writer(drawing, report);
@@ -102,15 +111,17 @@ Status write_cut_wkt(const std::string& path, const CutDrawing& drawing, CutFile
   options.format = OGRWktFormat::G;
   for (const CutLine& line : drawing.lines) {
     if (context.cancelled()) return interrupted();
-    if (drawing.of_contours) stream->write(writer.curves(line)->exportToWkt(options));
-    else stream->write(writer.chords(line)->exportToWkt(options));
+    if (drawing.of_contours)
+      stream->write(writer.curves(line)->exportToWkt(options));
+    else
+      stream->write(writer.chords(line)->exportToWkt(options));
     stream->write("\n");
   }
   return stream->finish();
 }
 
-Status write_cut_layer(const std::string& path, const std::string& driver, const CutDrawing& drawing, CutFileReport& report,
-                       const Context& context) {
+Status write_cut_layer(const std::string& path, const std::string& driver, const CutDrawing& drawing,
+                       CutFileReport& report, const Context& context) {
   return write_dataset(path, driver, drawing.options.crs, report.notes,
                        [&](OgrDataset& dataset) { return write_rows(dataset, drawing, report, context); });
 }

@@ -41,7 +41,8 @@ void each_part(const PlanePiece& p, double largest, const Put& put) {
     put(i == parts ? p.end : at_angle(p, p.from + (p.to - p.from) * i / parts), sweep / parts);
 }
 
-void put_svg_piece(SvgText& text, const CutDrawing& drawing, const CutLine& line, const CutPiece& piece, CutFileReport& report) {
+void put_svg_piece(SvgText& text, const CutDrawing& drawing, const CutLine& line, const CutPiece& piece,
+                   CutFileReport& report) {
   const PlanePiece p = in_plane(drawing, line, piece);
   if (p.kind == Kind::line) return text.put_relative('L', p.end);
   const EllipseAxes axes = main_axes(p);
@@ -53,8 +54,9 @@ void put_svg_piece(SvgText& text, const CutDrawing& drawing, const CutLine& line
     return;
   }
   each_part(p, largest_svg_arc, [&](Point end, double) {
-    text.format("A{} {} {} 0 {} {} {}", axes.longer, axes.shorter, p.kind == Kind::circle ? 0 : 0.0 - axes.angle * 180 / std::numbers::pi,
-                is_clockwise(p) ? 1 : 0, end.x, 0.0 - end.y);
+    text.format("A{} {} {} 0 {} {} {}", axes.longer, axes.shorter,
+                p.kind == Kind::circle ? 0 : 0.0 - axes.angle * 180 / std::numbers::pi, is_clockwise(p) ? 1 : 0, end.x,
+                0.0 - end.y);
   });
 }
 
@@ -97,11 +99,14 @@ void put_svg_head(SvgText& text, const CutDrawing& drawing) {
   const double width = frame.east - frame.west + 2 * margin, height = frame.north - frame.south + 2 * margin;
   const double scale = 1000 / std::max(width, height);
   text.put("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-  text.format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{} {} {} {}\" "
-              "data-origin=\"{} {}\">\n",
-              std::max(1.0, width * scale), std::max(1.0, height * scale), frame.west - margin, -frame.north - margin, width, height,
-              drawing.of_contours ? drawing.origin.x : 0.0, drawing.of_contours ? drawing.origin.y : drawing.origin.z);
-  text.put("<style>path{fill:none;stroke-width:1;vector-effect:non-scaling-stroke;stroke-linejoin:round;stroke-linecap:round}</style>\n");
+  text.format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{} {} {} {}\" "
+      "data-origin=\"{} {}\">\n",
+      std::max(1.0, width * scale), std::max(1.0, height * scale), frame.west - margin, -frame.north - margin, width,
+      height, drawing.of_contours ? drawing.origin.x : 0.0, drawing.of_contours ? drawing.origin.y : drawing.origin.z);
+  text.put(
+      "<style>path{fill:none;stroke-width:1;vector-effect:non-scaling-stroke;stroke-linejoin:round;stroke-linecap:"
+      "round}</style>\n");
 }
 
 /// Vertices of a piece but for its end.
@@ -141,17 +146,20 @@ Status write_cut_csv(const std::string& path, const CutDrawing& drawing, const C
     std::string text;
     const auto put = std::back_inserter(text);
     for (const CutPiece& piece : line.pieces) {
-      if (!drawing.of_contours) fmt::format_to(put, "{},{}", line.cut, line.number);
+      if (!drawing.of_contours)
+        fmt::format_to(put, "{},{}", line.cut, line.number);
       else {
         fmt::format_to(put, "{},{},{},", line.level, line.number, line.is_hole ? 1 : 0);
         if (line.parent >= 0) fmt::format_to(put, "{}", line.parent);
       }
       const Terrain::FeatureKind touched = drawing.terrain->feature_kind(piece.feature);
-      fmt::format_to(put, ",{},{},{}{}", name_of(piece.kind), piece.wall ? 1 : 0, output::name_of(touched)[0], piece.feature);
+      fmt::format_to(put, ",{},{},{}{}", name_of(piece.kind), piece.wall ? 1 : 0, output::name_of(touched)[0],
+                     piece.feature);
       const auto put_point = [&](Point3 p) { fmt::format_to(put, ",{},{},{}", p.x, p.y, p.z); };
       put_point(drawing.absolute(piece.start));
       put_point(drawing.absolute(piece.end));
-      if (piece.kind == Kind::line) text += ",,,,,,,,,,,\n";
+      if (piece.kind == Kind::line)
+        text += ",,,,,,,,,,,\n";
       else {
         put_point(drawing.absolute(piece.centre));
         put_point(piece.axis[0]);
@@ -164,7 +172,8 @@ Status write_cut_csv(const std::string& path, const CutDrawing& drawing, const C
   return stream->finish();
 }
 
-Status write_cut_svg(const std::string& path, const CutDrawing& drawing, CutFileReport& report, const Context& context) {
+Status write_cut_svg(const std::string& path, const CutDrawing& drawing, CutFileReport& report,
+                     const Context& context) {
   Result<OutputStream> stream = OutputStream::open(path);
   if (!stream) return stream.error();
   SvgText text({0, 0});
@@ -175,8 +184,10 @@ Status write_cut_svg(const std::string& path, const CutDrawing& drawing, CutFile
     const CutLine& line = drawing.lines[i];
     if (i == 0 || line.cut != drawing.lines[i - 1].cut) {
       text.put(i == 0 ? "" : "</g>\n");
-      if (drawing.of_contours) text.format("<g class=\"contour\" data-level=\"{}\"", line.level);
-      else text.format("<g class=\"section\" data-section=\"{}\"", line.cut);
+      if (drawing.of_contours)
+        text.format("<g class=\"contour\" data-level=\"{}\"", line.level);
+      else
+        text.format("<g class=\"section\" data-section=\"{}\"", line.cut);
       text.format(" stroke=\"{}\">\n", colour(double(line.cut) / cuts));
     }
     text.put("<path d=\"");
@@ -190,7 +201,8 @@ Status write_cut_svg(const std::string& path, const CutDrawing& drawing, CutFile
   return stream->finish();
 }
 
-Status write_cut_dxf(const std::string& path, const CutDrawing& drawing, CutFileReport& report, const Context& context) {
+Status write_cut_dxf(const std::string& path, const CutDrawing& drawing, CutFileReport& report,
+                     const Context& context) {
   Result<OutputStream> stream = OutputStream::open(path);
   if (!stream) return stream.error();
   std::vector<std::string> layers;

@@ -25,7 +25,7 @@ std::vector<DxfDocument::Vertex> ring_vertices(const Zone& zone, std::uint32_t r
 
 std::string layer_name(const Zone& zone, bool hole) {
   if (zone.least_radius() < zone.radius()) return hole ? "ZONE_HOLES" : "ZONE";
-  return fmt::format("ZONE_{}{}", zone.radius(), hole ? "_HOLES" : "");
+  return fmt::format("ZONE_{}{}", zone.signed_radius(), hole ? "_HOLES" : "");
 }
 
 }  // namespace

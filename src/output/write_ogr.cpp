@@ -92,13 +92,24 @@ Status OgrWriter::write_zone_layer(std::span<const Zone> zones) {
   return std::monostate{};
 }
 
+/// What a piece is: offsets by their form, others by their role.
+static const char* kind_of(const Zone::Piece& piece) {
+  switch (piece.role) {
+    case Zone::Role::offset: break;
+    case Zone::Role::input: return "input";
+    case Zone::Role::end: return "end";
+    case Zone::Role::bevel: return "bevel";
+    case Zone::Role::between: return "between";
+  }
+  return piece.kind == Zone::Kind::arc ? "arc" : "segment";
+}
+
 Status OgrWriter::add_piece(OGRLayer& layer, const Zone& zone, std::uint32_t piece) {
   Zone::Piece from = zone.piece(piece);
-  bool arc = from.kind == Zone::Kind::arc;
-  Network::Source source = arc ? zone.network().vertex_source(from.source) : zone.network().segment_source(from.source);
+  Network::Source source = from.from_vertex ? zone.network().vertex_source(from.source) : zone.network().segment_source(from.source);
   OGRFeature feature(layer.GetLayerDefn());
-  feature.SetField("radius", from.radius);
-  feature.SetField("kind", arc ? "arc" : "segment");
+  feature.SetField("radius", zone.signed_radius() < 0 ? -from.radius : from.radius);
+  feature.SetField("kind", kind_of(from));
   feature.SetField("source_feature", static_cast<GIntBig>(source.feature));
   feature.SetField("source_part", static_cast<GIntBig>(source.part));
   feature.SetField("source_vertex", static_cast<GIntBig>(source.vertex));

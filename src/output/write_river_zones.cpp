@@ -15,8 +15,9 @@ using Index = RiverNetwork::Index;
 
 class RiverZones {
  public:
-  RiverZones(const RiverNetwork& rivers, RiverPart part, const RiverFileOptions& options, const Context& context)
-      : rivers_(rivers), part_(part), options_(options), context_(context) {
+  RiverZones(const RiverNetwork& rivers, RiverPart part, const RiverFileOptions& options, std::vector<std::string>& notes,
+             const Context& context)
+      : rivers_(rivers), part_(part), options_(options), notes_(notes), source_(options.attributes), context_(context) {
     for (Index s = 0; s < rivers.sub_rivers().size(); ++s) {
       if (part == RiverPart::sub_river || (part == RiverPart::stem && rivers.sub_rivers()[s].is_stem))
         owner_.push_back(s);
@@ -49,7 +50,7 @@ class RiverZones {
   std::optional<double> deviation() const { return deviation_; }
 
  private:
-  Result<OGRLayer*> make_layer(OgrDataset& dataset, OGRwkbGeometryType type) const {
+  Result<OGRLayer*> make_layer(OgrDataset& dataset, OGRwkbGeometryType type) {
     Result<OGRLayer*> layer =
         dataset.create_layer("zones", type, part_ == RiverPart::whole ? OgrDataset::Fields{} : sub_river_fields());
     if (!layer || !dataset.has_fields()) return layer;
@@ -63,11 +64,16 @@ class RiverZones {
         return Error{ErrorCode::io, std::string("field ") + name + " cannot be written", "", "choose another format"};
       }
     }
+    if (part_ == RiverPart::whole) return layer;
+    if (Status made = source_.create(**layer, dataset, notes_); !made) return made.error();
     return layer;
   }
 
   void set_fields(OGRFeature& row, const Zone& zone, std::size_t i) const {
-    if (part_ != RiverPart::whole) set_sub_river(row, rivers_, owner_[i]);
+    if (part_ != RiverPart::whole) {
+      set_sub_river(row, rivers_, owner_[i]);
+      source_.set(row, rivers_.sub_rivers()[owner_[i]].feature);
+    }
     row.SetField("radius", zone.radius());
     row.SetField("area", zone.area());
     row.SetField("perimeter", zone.perimeter());
@@ -78,6 +84,8 @@ class RiverZones {
   const RiverNetwork& rivers_;
   const RiverPart part_;
   const RiverFileOptions& options_;
+  std::vector<std::string>& notes_;
+  SourceAttributes source_;
   const Context& context_;
   std::vector<Index> owner_;  // per zone: the sub-river whose attributes it has
   std::optional<double> deviation_;
@@ -94,8 +102,8 @@ Result<ZoneFileReport> write_river_zones(const std::string& path, const RiverNet
     plain.max_error = options.max_error;
     return write_zones(path, zones, format, plain, context);
   }
-  RiverZones writer(rivers, part, options, context);
   ZoneFileReport report;
+  RiverZones writer(rivers, part, options, report.notes, context);
   const std::string driver = format.kind == ZoneFormat::Kind::geojson ? "GeoJSON" : format.driver;
   Status written = write_dataset(path, driver, options.crs, report.notes,
                                  [&](OgrDataset& dataset) { return writer.write(dataset, zones); });

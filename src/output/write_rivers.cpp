@@ -30,14 +30,20 @@ std::vector<Point> line(const RiverNetwork& rivers, const RiverFileOptions& opti
 
 class RiverLayers {
  public:
-  RiverLayers(const RiverNetwork& rivers, OgrDataset& dataset, const Context& context)
-      : rivers_(rivers), dataset_(dataset), context_(context) {}
+  RiverLayers(const RiverNetwork& rivers, OgrDataset& dataset, const AttributeRows& attributes,
+              std::vector<std::string>& notes, const Context& context)
+      : rivers_(rivers), dataset_(dataset), attributes_(attributes), notes_(notes), context_(context) {}
 
   Status write_sub_rivers() {
     Result<OGRLayer*> layer = dataset_.create_layer("sub_rivers", wkbLineString, sub_river_fields());
     if (!layer) return layer.error();
+    SourceAttributes source(attributes_);
+    if (Status made = source.create(**layer, dataset_, notes_); !made) return made;
     return write(**layer, rivers_.sub_rivers().size(), [&](OGRFeature& row, Index s) {
-      if (dataset_.has_fields()) set_sub_river(row, rivers_, s);
+      if (dataset_.has_fields()) {
+        set_sub_river(row, rivers_, s);
+        source.set(row, rivers_.sub_rivers()[s].feature);
+      }
       row.SetGeometryDirectly(line_geometry(rivers_.sub_river_line(s)).release());
     });
   }
@@ -53,8 +59,14 @@ class RiverLayers {
                                                      {"cycle", OFTInteger},
                                                      {"feature", OFTInteger64}});
     if (!layer) return layer.error();
+    SourceAttributes source(attributes_);
+    std::vector<std::string> told;  // sub-rivers have told them
+    if (Status made = source.create(**layer, dataset_, dataset_.driver() == "GPKG" ? told : notes_); !made) return made;
     return write(**layer, rivers_.reaches().size(), [&](OGRFeature& row, Index r) {
-      if (dataset_.has_fields()) set_reach(row, r);
+      if (dataset_.has_fields()) {
+        set_reach(row, r);
+        source.set(row, rivers_.reaches()[r].feature);
+      }
       row.SetGeometryDirectly(line_geometry(rivers_.reach_line(r)).release());
     });
   }
@@ -104,12 +116,14 @@ class RiverLayers {
 
   const RiverNetwork& rivers_;
   OgrDataset& dataset_;
+  const AttributeRows& attributes_;
+  std::vector<std::string>& notes_;
   const Context& context_;
 };
 
 Status write_layers(OgrDataset& dataset, const RiverNetwork& rivers, const RiverFileOptions& options,
-                    const Context& context) {
-  RiverLayers layers(rivers, dataset, context);
+                    std::vector<std::string>& notes, const Context& context) {
+  RiverLayers layers(rivers, dataset, options.attributes, notes, context);
   const bool all = dataset.driver() == "GPKG";
   if (all || !options.reaches) {
     if (Status written = layers.write_sub_rivers(); !written) return written;
@@ -124,7 +138,7 @@ Notes write_by_driver(const std::string& path, const std::string& driver, const 
                       const RiverFileOptions& options, const Context& context) {
   std::vector<std::string> notes;
   Status written = write_dataset(path, driver, options.crs, notes,
-                                 [&](OgrDataset& dataset) { return write_layers(dataset, rivers, options, context); });
+                                 [&](OgrDataset& dataset) { return write_layers(dataset, rivers, options, notes, context); });
   if (!written) return written.error();
   return notes;
 }

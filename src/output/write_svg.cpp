@@ -26,13 +26,13 @@ void put_ring(SvgText& text, const Zone& zone, std::uint32_t ring) {
       continue;
     }
     std::vector<Point> ends = arc_ends(piece, largest_svg_arc);
-    for (std::size_t i = 1; i < ends.size(); ++i) text.put_arc(piece.radius, ends[i]);
+    for (std::size_t i = 1; i < ends.size(); ++i) text.put_arc(piece.radius, ends[i], piece.clockwise);
   }
   text.put("Z");
 }
 
 Status put_zone(SvgText& text, OutputStream& stream, const Zone& zone, const Context& context) {
-  text.format("<g class=\"zone\" data-radius=\"{}\" data-area=\"{}\">\n", zone.radius(), zone.area());
+  text.format("<g class=\"zone\" data-radius=\"{}\" data-area=\"{}\">\n", zone.signed_radius(), zone.area());
   for (std::uint32_t p = 0; p < zone.polygon_count(); ++p) {
     if (context.cancelled()) return interrupted_while_writing();
     Zone::Polygon polygon = zone.polygon(p);
@@ -107,7 +107,7 @@ WriteResult write_svg(const std::string& path, std::span<const Zone> zones, cons
   // The widest first, so that it does not cover the others.
   std::vector<const Zone*> order;
   for (const Zone& zone : zones) order.push_back(&zone);
-  std::stable_sort(order.begin(), order.end(), [](const Zone* a, const Zone* b) { return a->radius() > b->radius(); });
+  std::stable_sort(order.begin(), order.end(), [](const Zone* a, const Zone* b) { return a->signed_radius() > b->signed_radius(); });
 
   const Point origin = order.front()->network().origin();
   SvgText text(origin);

@@ -59,6 +59,7 @@ WriteResult write_wkt(const std::string& path, std::span<const Zone> zones, cons
     for (const ZoneFeature& feature : zone_features(zone, options.separate)) {
       bool many = feature.polygon_count > 1;
       if (many) put(text, "MULTISURFACE (");
+      if (feature.polygon_count == 0) put(text, "MULTISURFACE EMPTY");
       for (std::uint32_t i = 0; i < feature.polygon_count; ++i) {
         if (context.cancelled()) return interrupted_while_writing();
         if (i > 0) put(text, ", ");

@@ -1,5 +1,6 @@
 #include "output/zone_curves.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -40,7 +41,24 @@ void halve(std::vector<Point>& ends, Point center) {
 
 }  // namespace
 
-double arc_angle(const Zone::Piece& arc) {
+namespace {
+
+/// A clockwise arc is measured and cut as its reverse.
+Zone::Piece counter_clockwise(Zone::Piece arc) {
+  if (arc.clockwise) std::swap(arc.start, arc.end);
+  arc.clockwise = false;
+  return arc;
+}
+
+std::vector<Point> as_it_runs(const Zone::Piece& arc, std::vector<Point> points) {
+  if (arc.clockwise) std::reverse(points.begin(), points.end());
+  return points;
+}
+
+}  // namespace
+
+double arc_angle(const Zone::Piece& piece) {
+  const Zone::Piece arc = counter_clockwise(piece);
   if (arc.start == arc.end) return 2 * pi;
   Point u = minus(arc.start, arc.center), v = minus(arc.end, arc.center);
   double angle = std::atan2(cross(u, v), dot(u, v));
@@ -68,7 +86,9 @@ bool is_negligible(const Zone::Piece& arc) {
   return std::max(std::fabs(chord.x), std::fabs(chord.y)) <= 8 * std::numeric_limits<double>::epsilon() * size;
 }
 
-std::vector<Point> arc_points(const Zone::Piece& arc) {
+std::vector<Point> arc_points(const Zone::Piece& piece) {
+  if (piece.clockwise) return as_it_runs(piece, arc_points(counter_clockwise(piece)));
+  const Zone::Piece& arc = piece;
   if (arc.start == arc.end) return circle_points(arc);
   Point middle = arc_middle(arc.center, arc.start, arc.end);
   Point u = minus(arc.start, arc.center), v = minus(arc.end, arc.center);
@@ -77,7 +97,8 @@ std::vector<Point> arc_points(const Zone::Piece& arc) {
           arc_middle(arc.center, middle, arc.end), arc.end};
 }
 
-std::vector<Point> arc_ends(const Zone::Piece& arc, double largest) {
+std::vector<Point> arc_ends(const Zone::Piece& piece, double largest) {
+  const Zone::Piece arc = counter_clockwise(piece);
   std::vector<Point> ends = {arc.start, arc.end};
   double angle = arc_angle(arc);
   if (arc.start == arc.end) {
@@ -85,7 +106,7 @@ std::vector<Point> arc_ends(const Zone::Piece& arc, double largest) {
     angle /= 4;
   }
   for (; angle > largest; angle /= 2) halve(ends, arc.center);
-  return ends;
+  return as_it_runs(piece, std::move(ends));
 }
 
 double piece_length(const Zone::Piece& piece) {
@@ -120,7 +141,7 @@ RingMeasure measure_ring(const Zone& zone, std::uint32_t ring) {
     measure.length += piece_length(piece);
     if (piece.kind != Zone::Kind::arc) continue;
     double angle = arc_angle(piece);
-    measure.area += piece.radius * piece.radius * (angle - std::sin(angle)) / 2;
+    measure.area += (piece.clockwise ? -1 : 1) * piece.radius * piece.radius * (angle - std::sin(angle)) / 2;
   }
   return measure;
 }

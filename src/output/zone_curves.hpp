@@ -15,7 +15,7 @@ struct CurveRun {
   std::vector<Point> points;
 };
 
-/// The angle that an arc piece spans, in (0, 2 pi]; start == end is the full turn.
+/// The angle that an arc piece spans, in (0, 2 pi], whichever way it runs; start == end is the full turn.
 double arc_angle(const Zone::Piece& arc);
 
 /// The point halfway along the counter-clockwise arc from `start` to `end`, without trigonometry: as far from the centre
@@ -30,7 +30,7 @@ bool is_negligible(const Zone::Piece& arc);
 /// The arc as points of a circular string: start, (middle, end) once or, for more than half a turn, twice.
 std::vector<Point> arc_points(const Zone::Piece& arc);
 
-/// The arc cut into `2^k` equal parts of at most `largest` radians: their ends, start and end included.
+/// The arc cut into `2^k` equal parts of at most `largest` radians: their ends, start and end included, as it runs.
 std::vector<Point> arc_ends(const Zone::Piece& arc, double largest);
 
 double piece_length(const Zone::Piece& piece);

@@ -117,7 +117,7 @@ Result<ZoneFormat> find_zone_format(const std::string& path, const std::string& 
 std::vector<ZoneFeature> zone_features(const Zone& zone, bool separate) {
   auto polygons = static_cast<std::uint32_t>(zone.polygon_count());
   std::optional<double> radius;
-  if (zone.least_radius() == zone.radius()) radius = zone.radius();
+  if (zone.least_radius() == zone.radius()) radius = zone.signed_radius();
   if (!separate) return {{0, polygons, radius, zone.area(), zone.perimeter(), zone.hole_count()}};
   std::vector<ZoneFeature> features;
   features.reserve(polygons);

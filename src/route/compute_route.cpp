@@ -56,7 +56,9 @@ Result<Route> compute_route(std::shared_ptr<const Network> network, const RouteO
   if (const auto error = refuse_end(obstacles, to, options.radius, nearest, "--to")) return *error;
 
   Result<Route> route = Route{};
-  if (options.prefer == RoutePreference::clearance)
+  if (from == to)
+    route->pieces.push_back(line_piece(obstacles, from, to));  // no way is wider than none
+  else if (options.prefer == RoutePreference::clearance)
     route = axis_route(*network, obstacles, options.radius, from, to, context);
   else if (options.weight > 0)
     route = roomy_route(network, obstacles, options, from, to, context);

@@ -76,6 +76,8 @@ void measure(TerrainRoute& route, const FlightRules& rules) {
 Result<TerrainRoute> compute_terrain_route(const DropCutter& cutter, const TerrainRouteOptions& options,
                                            const Context& context) {
   if (const auto error = refuse(options)) return *error;
+  if (cutter.cutter().kind() != Cutter::Kind::ball)
+    return Error{ErrorCode::usage, "routes over a terrain are those of a ball", "", "give a drop cutter of a ball"};
   const Terrain& terrain = cutter.terrain();
   const Point3 origin = terrain.origin();
   const double tolerance = 1e-9 * std::max(terrain.extent(), cutter.radius());

@@ -38,11 +38,14 @@ std::optional<double> Horizon::leaving(Point center, double radius) const {
   return wheel_.radius > 0 ? way - turn / 4 : wheel_.radius < 0 ? way + turn / 4 : way;
 }
 
+/// Takes positions along the bins, from 0 to `bins`; a range that lies beside them is not taken.
 template <class Take>
 void Horizon::each_range(double from, double width, const Take& take) const {
   const double offset = positive_angle(std::fmod(from - from_, turn));
-  for (const double shift : {0.0, -turn})
-    take((offset + shift) / span_ * bins, (offset + shift + width) / span_ * bins);
+  for (const double shift : {0.0, -turn}) {
+    const double begin = (offset + shift) / span_ * bins, end = (offset + shift + width) / span_ * bins;
+    if (end >= 0 && begin <= bins) take(std::max(begin, 0.0), std::min(end, double(bins)));
+  }
 }
 
 /// A segment blocks all ways between the outermost ones that touch the disks about its ends; a way gets at most as far
@@ -66,18 +69,16 @@ void Horizon::block(Point a, Point b) {
   if (high - low > widest) return;
   const double trim = 4 * slack_ / radius_ + 1e-12;
   each_range(*first + low + trim, high - low - 2 * trim, [&](double begin, double end) {
-    for (int i = int(std::ceil(std::max(begin, 0.0))); i + 1 <= std::min(end, double(bins)); ++i)
+    for (int i = int(std::ceil(begin)); i + 1 <= end; ++i)
       blocked_[std::size_t(i)] = std::min(blocked_[std::size_t(i)], reach);
   });
 }
 
 bool Horizon::hides(double angle, double length) const {
   bool hidden = true;
-  const double pad = 2 * slack_ / radius_ + 1e-13;  // ways may leave that much beyond the range
+  const double pad = 2 * slack_ / radius_ + 1e-12;  // ways may leave that much beyond the range
   each_range(angle - pad, 2 * pad, [&](double begin, double end) {
-    if (end < 0 || begin > bins) return;
-    const int first = std::clamp(int(std::floor(begin)), 0, bins - 1),
-              last = std::clamp(int(std::floor(end)), 0, bins - 1);
+    const int first = std::min(int(begin), bins - 1), last = std::min(int(end), bins - 1);
     for (int i = first; i <= last; ++i) hidden = hidden && blocked_[std::size_t(i)] < length;
   });
   return hidden;
@@ -101,9 +102,7 @@ bool Horizon::hides(const Box& box) const {
   const double pad = 4 * slack_ / radius_ + 1e-9;
   bool hidden = true;
   each_range(*first + low - pad, high - low + 2 * pad, [&](double begin, double end) {
-    if (end < 0 || begin > bins) return;
-    const int from = std::clamp(int(std::floor(begin)), 0, bins - 1),
-              to = std::clamp(int(std::floor(end)), 0, bins - 1);
+    const int from = std::min(int(begin), bins - 1), to = std::min(int(end), bins - 1);
     for (int i = from; hidden && i <= to; ++i) hidden = blocked_[std::size_t(i)] < length;
   });
   return hidden;

@@ -23,7 +23,12 @@ Result<Contour> ContourTracer::run() {
   move_off_vertices();
   for (const Index e : edges_) parts_.is_rim(e) ? cross_rim(e) : cross_edge(e);
   const bool paired = tracing_.pair(
-      [&](const Patch& patch, const Crossing& c) { return patch.place_at_level({c.at.x, c.at.y}, level_); });
+      [&](const Patch& patch, const Crossing& c) {
+        return patch.place_at_level({c.at.x, c.at.y}, level_);
+      },
+      [&](Index face, const Patch& patch, double angle) {
+        return parts_.face_holds(face, patch.on_level_circle(level_, angle));  // just inside, as it may run along a rim
+      });
   if (!paired || !trace())
     return Error{ErrorCode::computation, "the contour at " + std::to_string(contour_.level) + " does not close", "",
                  "please report this input"};
@@ -51,16 +56,18 @@ void ContourTracer::move_off_vertices() {
     return false;
   };
   const auto& domes = parts_.domes;
-  const bool touches = std::any_of(edges_.begin(), edges_.end(), edge_is_near) ||
-                       std::any_of(domes.begin(), domes.end(), [&](const auto& d) { return is_near(d.top) || is_near(d.low); });
+  const bool touches =
+      std::any_of(edges_.begin(), edges_.end(), edge_is_near) ||
+      std::any_of(domes.begin(), domes.end(), [&](const auto& d) { return is_near(d.top) || is_near(d.low); });
   if (touches) level_ += options_.ties_are_high ? -parts_.shift : parts_.shift;
 }
 
 void ContourTracer::cross_edge(Index e) {
   const bool starts_high = is_high(2 * e), ends_high = is_high(2 * e + 1);
   if (starts_high == ends_high && parts_.surface->edge(e).curve == Surface::Curve::line) return;
-  find_crossings(EdgeCourse(parts_, e), e, Side::both, starts_high, ends_high, [&](Point3 p) { return p.z - level_; },
-                 tracing_.crossings);
+  find_crossings(
+      EdgeCourse(parts_, e), e, Side::both, starts_high, ends_high, [&](Point3 p) { return p.z - level_; },
+      2 * parts_.shift, tracing_.crossings);
 }
 
 void ContourTracer::cross_rim(Index e) {
@@ -77,7 +84,8 @@ void ContourTracer::cross_rim(Index e) {
     const EdgeCourse course(parts_, e);
     const Patch patch = parts_.patch(face);
     const auto value = [&](Point3 p) { return (is_upper ? p.z : patch.height({p.x, p.y})) - level_; };
-    find_crossings(course, e, side == 0 ? Side::left : Side::right, starts[side], ends[side], value, tracing_.crossings);
+    find_crossings(course, e, side == 0 ? Side::left : Side::right, starts[side], ends[side], value, 2 * parts_.shift,
+                   tracing_.crossings);
   }
   const auto begin = tracing_.crossings.begin() + first;
   std::stable_sort(begin, tracing_.crossings.end(), [](const Crossing& a, const Crossing& b) { return a.s < b.s; });
@@ -101,8 +109,8 @@ ContourTracer::Stretch ContourTracer::stretch_from(Index crossing) const {
   return is_wall(rims_[r], after) ? Stretch{r, after, true} : Stretch{r, after - 1, false};
 }
 
-/// The wall that goes on where one ends along a half-edge: the next one clockwise, beyond what is high. So rings that meet in a
-/// vertex touch there and do not cross.
+/// The wall that goes on where one ends along a half-edge: the next one clockwise, beyond what is high. So rings that
+/// meet in a vertex touch there and do not cross.
 ContourTracer::Stretch ContourTracer::stretch_after(Index half_edge) const {
   Index h = parts_.topology().next[half_edge];
   while (is_high(parts_.corner_beyond(h))) h = parts_.corner_beyond(h);
@@ -110,8 +118,8 @@ ContourTracer::Stretch ContourTracer::stretch_after(Index half_edge) const {
   return {r, h % 2 == 0 ? 0 : rims_[r].crossing_count, h % 2 == 0};
 }
 
-/// From the start of the stretch to the next crossing by which the contour enters a face. That, or none at a stretch that it has
-/// been at before.
+/// From the start of the stretch to the next crossing by which the contour enters a face. That, or none at a stretch
+/// that it has been at before.
 Index ContourTracer::add_wall(Stretch stretch) {
   const Subdivision& topology = parts_.topology();
   for (;;) {
@@ -144,9 +152,12 @@ Index ContourTracer::add_wall(Stretch stretch) {
       piece.from = angle(piece.start);
       piece.to = angle(piece.end);
       const bool whole = starts_edge && ends_edge && topology.origin[2 * rim.edge] == topology.origin[2 * rim.edge + 1];
-      if (whole) piece.to = piece.from + turn;
-      else if (piece.to < piece.from) piece.to += turn;
-      if (!whole && piece.to - piece.from > turn - 1e-6 && distance(piece.start, piece.end) <= 1e-6 * radius) piece.to -= turn;
+      if (whole)
+        piece.to = piece.from + turn;
+      else if (piece.to < piece.from)
+        piece.to += turn;
+      if (!whole && piece.to - piece.from > turn - 1e-6 && distance(piece.start, piece.end) <= 1e-6 * radius)
+        piece.to -= turn;
     }
     if (!(piece.start == piece.end) || piece.kind == CutPiece::Kind::circle) contour_.pieces.push_back(piece);
     if (stretch.forwards ? !ends_edge : !starts_edge) return stretch.forwards ? after : before;
@@ -163,13 +174,7 @@ void ContourTracer::add_patch_piece(Index from, Index to) {
   piece.start.z = piece.end.z = piece.centre.z = contour_.level;
   piece.face = face;
   piece.feature = parts_.surface->face_feature(face);
-  // Nearly a whole circle, or back a bit by rounding.
-  constexpr double turn = 2 * std::numbers::pi;
-  if (piece.kind == CutPiece::Kind::circle && piece.to - piece.from > turn - 1e-3 &&
-      distance(piece.start, piece.end) <= 0x1p-30 * parts_.scale) {
-    const Point3 opposite = piece.at(0.5);
-    if (!parts_.face_holds(face, {opposite.x, opposite.y})) piece.to -= turn;
-  }
+  if (patch.is_sphere()) piece.to = piece.from + tracing_.sweep(from);
   contour_.pieces.push_back(piece);
 }
 
@@ -228,8 +233,10 @@ void ContourTracer::end_ring() {
   const bool shows = std::any_of(begin, contour_.pieces.end(), [&](const CutPiece& piece) {
     return distance(begin->start, piece.at(0.5)) > least || distance(begin->start, piece.end) > least;
   });
-  if (!shows) contour_.pieces.erase(begin, contour_.pieces.end());
-  else contour_.ring_begin.push_back(Index(contour_.pieces.size()));
+  if (!shows)
+    contour_.pieces.erase(begin, contour_.pieces.end());
+  else
+    contour_.ring_begin.push_back(Index(contour_.pieces.size()));
 }
 
 }  // namespace krepl::section
@@ -256,8 +263,10 @@ Result<std::vector<Contour>> SurfaceCutter::contours(std::span<const double> lev
   kernel::Progress progress(context, levels.size());
   const bool done = kernel::parallel_blocks(context, levels.size(), 1, [&](std::size_t i, std::size_t) {
     Result<Contour> made = contour(levels[i], options);
-    if (made) result[i] = std::move(*made);
-    else errors[i] = made.error();
+    if (made)
+      result[i] = std::move(*made);
+    else
+      errors[i] = made.error();
     progress.add(1);
   });
   for (const auto& error : errors) {

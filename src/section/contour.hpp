@@ -11,8 +11,8 @@ class ContourTracer {
   Result<Contour> run();
 
  private:
-  /// A rim near the level: its crossings part it into stretches, numbered from first_stretch on. Where one side of a stretch is
-  /// high and the other low, the contour runs below the rim.
+  /// A rim near the level: its crossings part it into stretches, numbered from first_stretch on. Where one side of a
+  /// stretch is high and the other low, the contour runs below the rim.
   struct Rim {
     Index edge, first_crossing, crossing_count;
     bool left_starts_high, right_starts_high;
@@ -29,9 +29,7 @@ class ContourTracer {
   void cross_edge(Index e);
   void cross_rim(Index e);
   bool is_wall(const Rim& rim, Index stretch) const;
-  std::size_t visited_index(const Stretch& s) const {
-    return rims_[s.rim].first_crossing + s.rim + s.number;
-  }
+  std::size_t visited_index(const Stretch& s) const { return rims_[s.rim].first_crossing + s.rim + s.number; }
   Stretch stretch_from(Index crossing) const;
   Stretch stretch_after(Index half_edge) const;
   std::size_t find_rim(Index edge) const;

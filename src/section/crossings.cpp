@@ -18,7 +18,8 @@ struct Sample {
 
 class Search {
  public:
-  Search(const EdgeCourse& course, const std::function<double(Point3)>& value) : course_(course), value_(value) {}
+  Search(const EdgeCourse& course, const std::function<double(Point3)>& value, double slack)
+      : course_(course), value_(value), slack_(slack) {}
 
   void take_samples(bool starts_high, bool ends_high) {
     const auto& points = course_.samples();
@@ -47,16 +48,26 @@ class Search {
       if (const auto s = descend(a.s, c.s, sign)) found.push_back(*s);
     }
     for (const Sample& s : found) {
-      const auto at = std::lower_bound(samples_.begin(), samples_.end(), s.s, [](const Sample& x, double y) { return x.s < y; });
+      const auto at =
+          std::lower_bound(samples_.begin(), samples_.end(), s.s, [](const Sample& x, double y) { return x.s < y; });
       if (at == samples_.end() || at->s != s.s) samples_.insert(at, s);
     }
+  }
+
+  /// At a vertex where curves are tangent a closed form may begin a bit beside it: next to one that is on the level but
+  /// for rounding, or for how far the level was moved, the crossing is the vertex.
+  double snapped(double s, const Sample& a, const Sample& b) const {
+    constexpr double near = 1e-5;
+    if (a.s == 0 && s < near && std::abs(a.value) <= slack_) return 0;
+    if (b.s == 1 && s > 1 - near && std::abs(b.value) <= slack_) return 1;
+    return s;
   }
 
   void change_points(Index edge, Crossing::Side side, std::vector<Crossing>& out) const {
     for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
       const Sample &a = samples_[i], &b = samples_[i + 1];
       if (a.high == b.high) continue;
-      const double s = root(a, b);
+      const double s = snapped(root(a, b), a, b);
       out.push_back({edge, s, course_.at(s), side, b.high});
     }
   }
@@ -84,41 +95,42 @@ class Search {
 
   /// By the secant with a bracket, each end that stays halved in weight.
   double root(const Sample& left, const Sample& right) const {
-    double a = left.s, b = right.s, fa = left.value, fb = right.value;
-    if ((fa >= 0) != left.high || (fb >= 0) != right.high) {  // only rounding told the end's side
-      const bool at_start = (fa >= 0) != left.high;
-      return at_start ? a : b;
-    }
-    double s = (a + b) / 2;
-    for (int i = 0, last = 0; i < 100; ++i) {
-      s = fb != fa ? a - fa * (b - a) / (fb - fa) : (a + b) / 2;
-      if (!(s > a && s < b) || i % 8 == 7) s = a + (b - a) / 2;
-      if (!(s > a && s < b)) break;
+    Sample a = left, b = right;
+    if ((a.value >= 0) != a.high) return a.s;  // only rounding told the end's side
+    if ((b.value >= 0) != b.high) return b.s;
+    double fa = a.value, fb = b.value;
+    for (int i = 0, last = 0; i < 100 && b.s - a.s > 0x1p-53; ++i) {
+      double s = a.s - fa * (b.s - a.s) / (fb - fa);
+      if (!(s > a.s && s < b.s) || i % 8 == 7) s = a.s + (b.s - a.s) / 2;
+      if (!(s > a.s && s < b.s)) break;
       const double f = value_(course_.at(s));
-      if (f == 0) break;
+      if (f == 0) return s;
       if ((f >= 0) == left.high) {
-        a = s, fa = f;
+        a = {s, f, left.high};
+        fa = f;
         if (last < 0) fb /= 2;
         last = -1;
       } else {
-        b = s, fb = f;
+        b = {s, f, right.high};
+        fb = f;
         if (last > 0) fa /= 2;
         last = 1;
       }
-      if (b - a <= 0x1p-53) break;
     }
-    return s;
+    // The course may begin or end with a jump.
+    return std::abs(a.value) <= std::abs(b.value) ? a.s : b.s;
   }
 
   const EdgeCourse& course_;
   const std::function<double(Point3)>& value_;
+  const double slack_;
   std::vector<Sample> samples_;
 };
 
 }  // namespace
 
 void find_crossings(const EdgeCourse& course, Index edge, Crossing::Side side, bool starts_high, bool ends_high,
-                    const std::function<double(Point3)>& value, std::vector<Crossing>& out) {
+                    const std::function<double(Point3)>& value, double slack, std::vector<Crossing>& out) {
   if (course.is_straight()) {
     if (starts_high == ends_high) return;
     const Point3 a = course.samples().front(), b = course.samples().back();
@@ -127,7 +139,7 @@ void find_crossings(const EdgeCourse& course, Index edge, Crossing::Side side, b
     out.push_back({edge, t, t == 1 ? b : a + t * (b - a), side, ends_high});
     return;
   }
-  Search search(course, value);
+  Search search(course, value, slack);
   search.take_samples(starts_high, ends_high);
   search.look_into_bends();
   search.change_points(edge, side, out);

@@ -19,7 +19,8 @@ double cross_xy(Point3 a, Point3 b) { return a.x * b.y - a.y * b.x; }
 std::vector<double> turns(const CutPiece& piece, bool in_x) {
   std::vector<double> result{0};
   if (piece.kind != CutPiece::Kind::line && piece.from != piece.to) {
-    const double first = in_x ? std::atan2(piece.axis[1].x, piece.axis[0].x) : std::atan2(piece.axis[1].y, piece.axis[0].y);
+    const double first =
+        in_x ? std::atan2(piece.axis[1].x, piece.axis[0].x) : std::atan2(piece.axis[1].y, piece.axis[0].y);
     const double low = std::min(piece.from, piece.to), high = std::max(piece.from, piece.to);
     for (double k = std::ceil((low - first) / std::numbers::pi); first + k * std::numbers::pi < high; ++k) {
       const double s = (first + k * std::numbers::pi - piece.from) / (piece.to - piece.from);
@@ -84,7 +85,8 @@ void nest(Contour& contour) {
   contour.ring_is_hole.assign(rings, false);
   contour.ring_parent.assign(rings, Contour::none);
   for (std::size_t r = 0; r < rings; ++r) {
-    area[r] = ring_area({contour.pieces.data() + contour.ring_begin[r], contour.ring_begin[r + 1] - contour.ring_begin[r]});
+    area[r] =
+        ring_area({contour.pieces.data() + contour.ring_begin[r], contour.ring_begin[r + 1] - contour.ring_begin[r]});
     contour.ring_is_hole[r] = area[r] < 0;
     std::fill(ring_of.begin() + contour.ring_begin[r], ring_of.begin() + contour.ring_begin[r + 1], Contour::Index(r));
   }

@@ -120,8 +120,10 @@ Parts::Box Parts::edge_box(Index e) const {
     bulge += std::max(longest, distance(last, b));
   }
   box.widen(bulge);
-  if (edge.kind == Surface::EdgeKind::rim) box.low.z = -infinite;
-  else for (const Index h : {2 * e, 2 * e + 1}) box.low.z = std::min(box.low.z, corner_height(h) - bulge);
+  if (edge.kind == Surface::EdgeKind::rim)
+    box.low.z = -infinite;
+  else
+    for (const Index h : {2 * e, 2 * e + 1}) box.low.z = std::min(box.low.z, corner_height(h) - bulge);
   return box;
 }
 
@@ -147,7 +149,13 @@ bool Parts::face_holds(Index face, Point p) const {
   const auto add_loop = [&](Index first) {
     Index h = first;
     do {
-      const std::vector<Point3> points = surface->curve(Subdivision::edge(h), 33);
+      std::vector<Point3> points = surface->curve(Subdivision::edge(h), 33);
+      // Chords do where the place is not between one and its arc.
+      const auto is_near = [&](Point3 q) {
+        const double reach = std::hypot(points[0].x - points[1].x, points[0].y - points[1].y);
+        return std::hypot(q.x - p.x, q.y - p.y) <= 2 * reach;
+      };
+      if (std::any_of(points.begin(), points.end(), is_near)) points = surface->curve(Subdivision::edge(h), 4097);
       for (std::size_t i = 0; i + 1 < points.size(); ++i) {
         const Point3 a = points[i], b = points[i + 1];
         if ((a.y > p.y) == (b.y > p.y)) continue;

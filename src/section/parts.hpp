@@ -19,8 +19,8 @@ struct Parts {
   /// A face on a sphere in which a whole level circle may lie.
   struct Dome {
     Index face;
-    double low, top;     ///< heights of the sphere's centre and of its highest point
-    bool holds_top;      ///< the highest point lies in the face
+    double low, top;  ///< heights of the sphere's centre and of its highest point
+    bool holds_top;   ///< the highest point lies in the face
   };
 
   static constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -29,9 +29,7 @@ struct Parts {
   explicit Parts(std::shared_ptr<const Surface> s);
 
   const Subdivision& topology() const { return surface->subdivision(); }
-  Patch patch(Index face) const {
-    return {surface->terrain(), surface->face_feature(face), surface->radius(), scale};
-  }
+  Patch patch(Index face) const { return {surface->terrain(), surface->face_feature(face), surface->radius(), scale}; }
   bool is_rim(Index edge) const { return surface->edge(edge).kind == Surface::EdgeKind::rim; }
   /// Height of the face's patch where half-edge h starts. -infinity for a face without a patch.
   double corner_height(Index h) const;
@@ -57,9 +55,9 @@ struct Parts {
     Index half_edge;
     double height;
   };
-  std::vector<LowerCorner> lower_corners;    ///< ascending; at the feet of walls
-  std::vector<std::vector<Box>> levels;      ///< levels[0]: a box for each `arity` edges, and so on up to one box
-  std::vector<Dome> domes;                   ///< ascending
+  std::vector<LowerCorner> lower_corners;  ///< ascending; at the feet of walls
+  std::vector<std::vector<Box>> levels;    ///< levels[0]: a box for each `arity` edges, and so on up to one box
+  std::vector<Dome> domes;                 ///< ascending
 
  private:
   template <class Condition, class Visit>
@@ -68,8 +66,10 @@ struct Parts {
     const std::size_t first = index * arity;
     const std::size_t count = level == 0 ? topology().edge_count() : levels[level - 1].size();
     for (std::size_t i = first; i < std::min(first + arity, count); ++i) {
-      if (level > 0) descend(level - 1, i, meets, visit);
-      else if (meets(edge_box(Index(i)))) visit(Index(i));
+      if (level > 0)
+        descend(level - 1, i, meets, visit);
+      else if (meets(edge_box(Index(i))))
+        visit(Index(i));
     }
   }
   void find_lower_corners();

@@ -78,7 +78,6 @@ CutPiece Patch::level_piece(Point3 start, Point3 end) const {
     piece.start = start, piece.end = end;
     piece.from = std::atan2(start.y - at_.y, start.x - at_.x);
     piece.to = std::atan2(end.y - at_.y, end.x - at_.x);
-    if (piece.to < piece.from) piece.to += 2 * std::numbers::pi;
     return piece;
   }
   piece.from = angle(start);
@@ -89,6 +88,11 @@ CutPiece Patch::level_piece(Point3 start, Point3 end) const {
   piece.centre = {at_.x + middle * g_.x, at_.y + middle * g_.y, level};
   piece.axis = {Point3{-radius_ * g_.y, radius_ * g_.x, 0}, Point3{length * g_.x, length * g_.y, 0}};
   return piece;
+}
+
+Point Patch::on_level_circle(double level, double angle) const {
+  const double size = (1 - 0x1p-20) * level_circle(level).axis[0].x;
+  return {at_.x + size * std::cos(angle), at_.y + size * std::sin(angle)};
 }
 
 CutPiece Patch::level_circle(double level) const {
@@ -115,7 +119,9 @@ CutPiece Patch::line_piece(Point3 start, Point3 end, const Line& line) const {
     piece.kind = CutPiece::Kind::circle;
     piece.centre = point_of(middle, at_.z);
     piece.axis = {Point3{size * d.x, size * d.y, 0}, Point3{0, 0, size}};
-    const auto around = [&](Point3 p) { return std::atan2(std::max(0.0, p.z - at_.z), line.along({p.x, p.y}) - middle); };
+    const auto around = [&](Point3 p) {
+      return std::atan2(std::max(0.0, p.z - at_.z), line.along({p.x, p.y}) - middle);
+    };
     piece.from = around(start);
     piece.to = around(end);
     return piece;
@@ -130,7 +136,8 @@ CutPiece Patch::line_piece(Point3 start, Point3 end, const Line& line) const {
   piece.centre = point_of(middle, at_.z + m_ * (along(line.base) + forward * middle));
   piece.axis = {Point3{reach * d.x, reach * d.y, reach * m_ * forward}, Point3{0, 0, q_ * radius_}};
   constexpr double same = 1e-15;
-  if (std::abs(m_ * forward) <= same && std::abs(q_ * std::abs(across) - 1) <= same) piece.kind = CutPiece::Kind::circle;
+  if (std::abs(m_ * forward) <= same && std::abs(q_ * std::abs(across) - 1) <= same)
+    piece.kind = CutPiece::Kind::circle;
   return piece;
 }
 

@@ -17,7 +17,9 @@ Point3 way(const CutPiece& piece, double from, double to) {
   return (-2 * std::sin(middle) * half) * piece.axis[0] + (2 * std::cos(middle) * half) * piece.axis[1];
 }
 
-Point3 mix(Point3 a, Point3 b, double s) { return {a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), a.z + s * (b.z - a.z)}; }
+Point3 mix(Point3 a, Point3 b, double s) {
+  return {a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), a.z + s * (b.z - a.z)};
+}
 
 }  // namespace
 
@@ -43,7 +45,8 @@ void CutPiece::append_points(double max_error, std::vector<Point3>& points) cons
     const double sweep = std::abs(to - from);
     const auto largest = [&](bool cosine) {  // of |cos| or |sin| between the ends
       const double shift = cosine ? 0 : std::numbers::pi / 2;
-      const double a = (std::min(from, to) - shift) / std::numbers::pi, b = (std::max(from, to) - shift) / std::numbers::pi;
+      const double a = (std::min(from, to) - shift) / std::numbers::pi,
+                   b = (std::max(from, to) - shift) / std::numbers::pi;
       if (std::floor(b) >= std::ceil(a)) return 1.0;
       return std::max(std::abs(std::cos(from - shift)), std::abs(std::cos(to - shift)));
     };

@@ -25,8 +25,11 @@ class SectionTracer {
     collect_edges();
     move_off_vertices();
     for (const Index e : edges_) cross(e);
-    const bool paired =
-        tracing_.pair([&](const Patch&, const Crossing& c) { return Patch::Place{0, line_.along({c.at.x, c.at.y})}; });
+    const bool paired = tracing_.pair(
+        [&](const Patch&, const Crossing& c) {
+          return Patch::Place{0, line_.along({c.at.x, c.at.y})};
+        },
+        {});
     if (!paired || !trace())
       return Error{ErrorCode::computation, "the section does not connect", "", "please report this input"};
     clip();
@@ -65,8 +68,12 @@ class SectionTracer {
     const bool starts_left = is_left(2 * e), ends_left = is_left(2 * e + 1);
     const Surface::Edge edge = parts_.surface->edge(e);
     if (starts_left == ends_left && edge.curve == Surface::Curve::line) return;
-    find_crossings(EdgeCourse(parts_, e), e, Side::both, starts_left, ends_left,
-                   [&](Point3 p) { return line_.aside({p.x, p.y}); }, tracing_.crossings);
+    find_crossings(
+        EdgeCourse(parts_, e), e, Side::both, starts_left, ends_left,
+        [&](Point3 p) {
+          return line_.aside({p.x, p.y});
+        },
+        2 * parts_.shift, tracing_.crossings);
   }
 
   /// The height of a face where the line crosses its border.
@@ -138,19 +145,17 @@ class SectionTracer {
     section_.to = whole.to;
     const auto place = [&](Point3 p) { return line_.along({p.x, p.y}); };
     for (std::size_t c = 0; c < whole.chain_count(); ++c) {
-      for (const CutPiece& piece : whole.chain(c)) {
-        const double start = place(piece.start), end = place(piece.end);
-        if (piece.wall ? start < 0 || start > length_ : !(end > 0 && start < length_)) continue;
-        const bool cut_start = start < 0, cut_end = end > length_;
-        if (!cut_start && !cut_end) {
-          section_.pieces.push_back(piece);
-          continue;
-        }
-        const CutPiece part = piece.part(cut_start ? parameter(piece, 0) : 0, cut_end ? parameter(piece, length_) : 1);
-        if (!(part.start == part.end)) section_.pieces.push_back(part);
+      const auto chain = whole.chain(c);
+      std::size_t first = 0, last = chain.size();
+      while (first < last && !(place(chain[first].end) > 0)) ++first;
+      while (first < last && !(place(chain[last - 1].start) < length_)) --last;
+      if (first == last) continue;
+      for (std::size_t i = first; i < last; ++i) {
+        const double from = i == first && place(chain[i].start) < 0 ? parameter(chain[i], 0) : 0;
+        const double to = i + 1 == last && place(chain[i].end) > length_ ? parameter(chain[i], length_) : 1;
+        section_.pieces.push_back(from > 0 || to < 1 ? chain[i].part(from, to) : chain[i]);
       }
-      if (section_.pieces.size() > section_.chain_begin.back())
-        section_.chain_begin.push_back(Index(section_.pieces.size()));
+      section_.chain_begin.push_back(Index(section_.pieces.size()));
     }
   }
 
@@ -194,8 +199,10 @@ Result<std::vector<Section>> SurfaceCutter::sections(std::span<const Line> lines
   kernel::Progress progress(context, lines.size());
   const bool done = kernel::parallel_blocks(context, lines.size(), 1, [&](std::size_t i, std::size_t) {
     Result<Section> made = section(lines[i].from, lines[i].to);
-    if (made) result[i] = std::move(*made);
-    else errors[i] = made.error();
+    if (made)
+      result[i] = std::move(*made);
+    else
+      errors[i] = made.error();
     progress.add(1);
   });
   for (const auto& error : errors) {

@@ -11,13 +11,13 @@ namespace {
 
 constexpr Real pi = 3.141592653589793238462643383279502884L;
 
-/// Points per item so that about `budget` are tested in all, at least `least` and at most `most` an item.
+}  // namespace
+
 std::size_t per_item(std::size_t items, double budget, std::size_t least, std::size_t most, double effort) {
   const std::size_t top = std::max(least, std::size_t(double(most) * std::min(1.0, 5 * effort)));
   return items == 0 ? top : std::clamp(std::size_t(effort * budget / double(items)), least, top);
 }
 
-/// A random point of one of four kinds: anywhere, near a boundary (close by or within R), near the input.
 Vec sample_point(const ZoneCase& zone, const Box& region, std::size_t i) {
   Random random(zone.seed, i);
   const auto& curves = zone.boundary.curves().items();
@@ -37,8 +37,6 @@ Vec sample_point(const ZoneCase& zone, const Box& region, std::size_t i) {
   const Real off = kind == 2 ? close : close + zone.radius * random.unit() * random.unit();
   return curve.at(t) + (sign * off) * curve.normal(t);
 }
-
-}  // namespace
 
 // Three points fix a short arc's centre only badly, so the input vertex is looked for that has all three at distance R.
 Check check_centres(const ZoneCase& zone) {

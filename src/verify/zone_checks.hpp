@@ -23,6 +23,23 @@ struct ZoneCase {
   const Context& context;
 };
 
+/// A result, its numbers, and how many points are to be tested.
+struct MeasuredZone {
+  ZoneReport report;
+  Boundary boundary;
+  std::uint64_t samples;
+};
+Result<MeasuredZone> measure(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle,
+                             const ZoneCheckOptions& options);
+ZoneCase case_of(const MeasuredZone& measured, const Obstacle& obstacle, const ZoneCheckOptions& options,
+                 const Context& context);
+
+/// Points per item so that about `budget` are tested in all, at least `least` and at most `most` an item.
+std::size_t per_item(std::size_t items, double budget, std::size_t least, std::size_t most, double effort);
+
+/// A random point of one of four kinds: anywhere, near a boundary (close by or within R), near the input.
+Vec sample_point(const ZoneCase& zone, const Box& region, std::size_t i);
+
 Check check_joins(const ZoneCase& zone);
 Check check_centres(const ZoneCase& zone);
 Check check_distances(const ZoneCase& zone);

@@ -31,8 +31,8 @@ std::uint64_t default_samples(std::size_t pieces, double effort) {
 
 }  // namespace
 
-Result<ZoneReport> check_zone(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle,
-                              const ZoneCheckOptions& options, const Context& context) {
+Result<MeasuredZone> measure(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle,
+                             const ZoneCheckOptions& options) {
   if (!(std::isfinite(options.radius) && options.radius > 0))
     return Error{ErrorCode::usage, "the radius must be a finite positive number", "", ""};
   if (obstacle.segments().items().empty()) return Error{ErrorCode::input, "the input holds no line or point", "", ""};
@@ -43,23 +43,30 @@ Result<ZoneReport> check_zone(const std::vector<input::ResultPolygon>& polygons,
   report.scale = double(std::max(Real(options.radius), obstacle.extent()));
   // What the contract promises, unless the coordinates themselves cannot express it.
   report.tolerance = double(std::max(Real(1e-9L) * report.scale, 64 * obstacle.resolution()));
-  const Boundary boundary(polygons, obstacle, options.radius, report.tolerance);
+  Boundary boundary(polygons, obstacle, options.radius, report.tolerance);
   report.area = double(boundary.area());
   report.perimeter = double(boundary.perimeter());
   report.polygons = polygons.size();
   report.holes = boundary.rings().size() - polygons.size();
   report.pieces = boundary.curves().items().size();
   report.arcs = boundary.arc_fit().arcs;
+  const auto samples = options.samples != 0 ? options.samples : default_samples(report.pieces, options.effort);
+  return MeasuredZone{std::move(report), std::move(boundary), samples};
+}
 
-  const ZoneCase zone{obstacle,
-                      boundary,
-                      options.radius,
-                      report.tolerance,
-                      Real(report.tolerance) + options.max_error,
-                      options.samples != 0 ? options.samples : default_samples(report.pieces, options.effort),
-                      options.effort,
-                      options.seed,
-                      context};
+ZoneCase case_of(const MeasuredZone& measured, const Obstacle& obstacle, const ZoneCheckOptions& options,
+                 const Context& context) {
+  const Real tolerance = measured.report.tolerance;
+  return {obstacle,        measured.boundary, options.radius, tolerance, tolerance + options.max_error,
+          measured.samples, options.effort,    options.seed,   context};
+}
+
+Result<ZoneReport> check_zone(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle,
+                              const ZoneCheckOptions& options, const Context& context) {
+  const auto measured = measure(polygons, obstacle, options);
+  if (!measured) return measured.error();
+  ZoneReport report = measured->report;
+  const ZoneCase zone = case_of(*measured, obstacle, options, context);
   const auto add = [&](const Check& check) {
     report.checks.push_back(check);
     if (context.progress) context.progress(double(report.checks.size()) / 9);

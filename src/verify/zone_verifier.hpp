@@ -8,6 +8,7 @@
 #include "krepl/context.hpp"
 #include "krepl/error.hpp"
 #include "verify/obstacle.hpp"
+#include "verify/shape_oracle.hpp"
 
 namespace krepl::verify {
 
@@ -53,5 +54,10 @@ struct ZoneReport {
 /// Errors: radius not finite and positive, a coordinate of the result not finite, no input, cancelled.
 Result<ZoneReport> check_zone(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle,
                               const ZoneCheckOptions& options, const Context& context = {});
+
+/// The same for zones of other shapes; the radius is that of the question. The result may be empty.
+Result<ZoneReport> check_shape(const std::vector<input::ResultPolygon>& polygons, const std::vector<InputPart>& parts,
+                               const ShapeQuestion& question, const ZoneCheckOptions& options,
+                               const Context& context = {});
 
 }  // namespace krepl::verify

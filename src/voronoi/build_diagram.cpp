@@ -87,7 +87,7 @@ void mark_disagreeing(const Borders& borders, const std::vector<Index>& faces, c
   }
 }
 
-/// Does the given faces again in quadruple precision; the new borders stand at the end.
+/// Does the given faces again more precisely; the new borders stand at the end.
 void build_again(const Sites& sites, const SiteBoxes& boxes, const std::vector<Index>& faces,
                  FaceBuilder::Precision precision, const Context& context, Borders& borders) {
   constexpr std::size_t few = 8;
@@ -144,7 +144,7 @@ class Settling {
         counters_(counters),
         precise_(borders.count.size(), 0) {}
 
-  /// Brings all faces to agree. Faces done in quadruple precision are true ones of the moved instance, so they agree
+  /// Brings all faces to agree. Faces done more precisely are true ones of the moved instance, so they agree
   /// with each other but for links that are too short even for that; what grows from round to round is only the rim
   /// where they meet faces in double precision.
   Status run() {
@@ -160,7 +160,7 @@ class Settling {
       // The least precise first: the others may then agree.
       int rung = 0;
       std::vector<Index> faces;
-      for (; rung < 2 && faces.empty(); ++rung)
+      for (; rung < int(FaceBuilder::Precision::widest) && faces.empty(); ++rung)
         faces = marked([&](Index e) { return again_[e] && precise_[e] == rung; });
       if (faces.empty()) {
         if (!reconcile(all_marked)) return disagreement(sites_, all_marked[0]);
@@ -190,8 +190,10 @@ class Settling {
   }
   void do_again(const std::vector<Index>& faces, FaceBuilder::Precision precision) {
     ++counters_.rounds;
-    const bool quadruple = precision == FaceBuilder::Precision::quadruple;
-    (quadruple ? counters_.faces_in_quadruple : counters_.faces_in_widest) += faces.size();
+    using Precision = FaceBuilder::Precision;
+    (precision == Precision::twofold     ? counters_.faces_in_pairs
+     : precision == Precision::quadruple ? counters_.faces_in_quadruple
+                                         : counters_.faces_in_widest) += faces.size();
     for (const Index e : faces) look_around(e);  // those that were neighbours
     build_again(sites_, boxes_, faces, precision, context_, borders_);
     for (const Index e : faces) look_around(e), precise_[e] = char(precision);

@@ -12,7 +12,8 @@ namespace krepl::voronoi {
 /// How the faces came about. Printed by `krepl --verbose`.
 struct DiagramCounters {
   std::uint64_t faces = 0, candidates = 0;
-  std::uint64_t faces_in_quadruple = 0;     ///< done again because neighbours disagreed in double precision
+  std::uint64_t faces_in_pairs = 0;         ///< done again because neighbours disagreed in double precision
+  std::uint64_t faces_in_quadruple = 0;     ///< of them, done again because that did not settle it
   std::uint64_t faces_in_widest = 0;        ///< of them, done once more in 320 bits
   std::uint64_t vertices_in_quadruple = 0;  ///< evaluated again because the faces around them disagreed on the place
   std::uint64_t links_reconciled = 0;       ///< too short even for quadruple precision: seen from one side only

@@ -165,6 +165,7 @@ void FaceBuilder::build_with(SideCell<Real>& side, VertexCell<Real>& vertex, Ind
 }
 
 void FaceBuilder::build_precisely(Index element, Precision precision, std::vector<Link>& out) {
+  if (precision == Precision::twofold) return build_with(twofold_side_, twofold_vertex_, element, out);
   if (precision == Precision::quadruple) return build_with(precise_side_, precise_vertex_, element, out);
   SideCell<wide> side(sites_);
   VertexCell<wide> vertex(sites_);

@@ -30,6 +30,8 @@ class FaceBuilder {
         boxes_(boxes),
         side_(sites),
         vertex_(sites),
+        twofold_side_(sites),
+        twofold_vertex_(sites),
         precise_side_(sites),
         precise_vertex_(sites),
         reach_(0x1p-45 * sites.instance().extent()) {}
@@ -37,9 +39,9 @@ class FaceBuilder {
   /// Appends the face of an element in double precision. Returns false if it is certainly wrong: take build_precisely.
   /// `hints`: likely neighbours. Sides should come in order.
   bool build(Index element, std::span<const Index> hints, std::vector<Link>& out);
-  enum class Precision : char { twofold = 0, quadruple = 1, widest = 2 };
-  /// The same in quadruple or 320-bit precision of the moved vertices, among the sites that come near in double
-  /// precision.
+  enum class Precision : char { plain = 0, twofold = 1, quadruple = 2, widest = 3 };
+  /// The same in pairs of doubles, quadruple or 320-bit precision of the moved vertices, among the sites that come near
+  /// in double precision.
   void build_precisely(Index element, Precision precision, std::vector<Link>& out);
 
   FaceCounters counters;
@@ -64,6 +66,8 @@ class FaceBuilder {
   const SiteBoxes& boxes_;
   SideCell<double> side_;
   VertexCell<double> vertex_;
+  SideCell<Twofold> twofold_side_;
+  VertexCell<Twofold> twofold_vertex_;
   SideCell<quad> precise_side_;
   VertexCell<quad> precise_vertex_;
   Reach reach_;

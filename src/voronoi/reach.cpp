@@ -118,6 +118,8 @@ bool Reach::meets(const SiteBoxes::Box& box) const {
 template void Reach::update(const SideCell<double>&, const SideCell<double>&, Vector<double>);
 template void Reach::update(const SideCell<wide>&, const SideCell<double>&, Vector<double>);
 template void Reach::update(const VertexCell<wide>&, const VertexCell<double>&, Vector<double>);
+template void Reach::update(const SideCell<Twofold>&, const SideCell<double>&, Vector<double>);
+template void Reach::update(const VertexCell<Twofold>&, const VertexCell<double>&, Vector<double>);
 template void Reach::update(const SideCell<quad>&, const SideCell<double>&, Vector<double>);
 template void Reach::update(const VertexCell<double>&, const VertexCell<double>&, Vector<double>);
 template void Reach::update(const VertexCell<quad>&, const VertexCell<double>&, Vector<double>);

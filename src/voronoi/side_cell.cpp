@@ -134,6 +134,7 @@ void SideCell<Real>::add_segment(Index segment) {
 }
 
 template class SideCell<double>;
+template class SideCell<Twofold>;
 template class SideCell<quad>;
 template class SideCell<wide>;
 

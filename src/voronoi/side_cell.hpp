@@ -10,6 +10,8 @@ namespace krepl::voronoi {
 template <class Real>
 constexpr double narrow = 0x1p-48;
 template <>
+inline constexpr double narrow<Twofold> = 0x1p-100;
+template <>
 inline constexpr double narrow<quad> = 0x1p-108;
 template <>
 inline constexpr double narrow<wide> = 0x1p-300;
@@ -177,6 +179,7 @@ class SideCell {
 };
 
 extern template class SideCell<double>;
+extern template class SideCell<Twofold>;
 extern template class SideCell<quad>;
 extern template class SideCell<wide>;
 

@@ -5,6 +5,7 @@
 
 #include "kernel/wide.hpp"
 #include "krepl/context.hpp"
+#include "voronoi/twofold.hpp"
 #include "zone/instance.hpp"
 
 namespace krepl::voronoi {
@@ -61,7 +62,9 @@ class Sites {
   /// to - from: of the unmoved vertices in double precision, of the moved ones otherwise.
   template <class Real>
   Vector<Real> difference(Index to, Index from) const {
-    if constexpr (std::is_same_v<Real, wide>) {
+    if constexpr (std::is_same_v<Real, Twofold>) {
+      return moved_[to] - moved_[from];
+    } else if constexpr (std::is_same_v<Real, wide>) {
       const auto p = in_.moved(to), q = in_.moved(from);
       return {widened(p.x) - widened(q.x), widened(p.y) - widened(q.y)};
     } else {
@@ -99,6 +102,7 @@ class Sites {
   double horizon_;
   std::vector<Vector<double>> direction_;
   std::vector<Index> owner_;
+  std::vector<Vector<Twofold>> moved_;  // vertices
 };
 
 }  // namespace krepl::voronoi

@@ -13,6 +13,8 @@ Vector<Real> unit(Vector<Real> v) {
 template <class Real>
 constexpr double thin = 0x1p-40;
 template <>
+constexpr double thin<Twofold> = 0;
+template <>
 constexpr double thin<quad> = 0;
 template <>
 constexpr double thin<wide> = 0;
@@ -158,6 +160,7 @@ void VertexCell<Real>::add_line(Index segment, Vector<Real> a, Vector<Real> b) {
 }
 
 template class VertexCell<double>;
+template class VertexCell<Twofold>;
 template class VertexCell<quad>;
 template class VertexCell<wide>;
 

@@ -141,6 +141,7 @@ class VertexCell {
 };
 
 extern template class VertexCell<double>;
+extern template class VertexCell<Twofold>;
 extern template class VertexCell<quad>;
 extern template class VertexCell<wide>;
 

@@ -50,8 +50,8 @@ Result<VoronoiDiagram> VoronoiDiagram::build(std::shared_ptr<const Network> netw
   parts->diagram = std::move(*diagram);
   const auto& c = parts->diagram.counters;
   parts->counters = {
-      c.faces, c.candidates, c.faces_in_quadruple, c.vertices_in_quadruple, c.faces_in_widest, c.links_reconciled,
-      c.rounds};
+      c.faces,           c.candidates,       c.faces_in_pairs, c.faces_in_quadruple, c.vertices_in_quadruple,
+      c.faces_in_widest, c.links_reconciled, c.rounds};
   return VoronoiDiagram(std::move(parts));
 }
 

@@ -1,5 +1,7 @@
 #include "zone/assembly.hpp"
 
+#include <cmath>
+
 #include "kernel/parallel.hpp"
 
 namespace krepl {
@@ -19,6 +21,28 @@ Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, const 
   if (!nesting) return nesting.error();
   Zone zone = assemble(std::move(network), instance.nominal_radius(), std::move(rings), *nesting, counters, context);
   zone.varied_ = std::move(varied);
+  return zone;
+}
+
+Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, double distance, zone::ShapedRings rings,
+                                  double slack, const ZoneCounters& counters, const Context& context) {
+  if (context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
+  const auto nesting = zone::nest(rings, std::abs(distance), slack, context);
+  if (!nesting) return nesting.error();
+  Zone zone;
+  zone.radius_ = std::abs(distance);
+  zone.inward_ = distance < 0;
+  zone.network_ = std::move(network);
+  for (Zone::Piece& p : rings.piece) {
+    p.radius = zone.radius_;
+    zone.vertex_.push_back(p.start);
+  }
+  zone.shaped_ = std::move(rings.piece);
+  zone.ring_begin_ = std::move(rings.begin);
+  zone.ring_is_hole_ = nesting->is_hole;
+  zone.counters_ = counters;
+  add_polygons(zone, *nesting);
+  add_subdivision(zone, *nesting, context);
   return zone;
 }
 

@@ -4,6 +4,7 @@
 
 #include "krepl/zone.hpp"
 #include "zone/nesting.hpp"
+#include "zone/shaped_rings.hpp"
 
 namespace krepl {
 
@@ -15,6 +16,11 @@ class ZoneAssembly {
   static Result<Zone> finish(std::shared_ptr<const Network> network, const zone::Instance& instance, zone::Rings rings,
                              double resolution, ZoneCounters counters, const Context& context,
                              std::shared_ptr<const zone::VariedSites> varied = nullptr);
+
+  /// From closed rings of any pieces, the zone on their left. `distance` is the radius, negative where polygons were
+  /// shrunk; opposite boundaries are no nearer to each other than `slack`.
+  static Result<Zone> finish(std::shared_ptr<const Network> network, double distance, zone::ShapedRings rings,
+                             double slack, const ZoneCounters& counters, const Context& context);
 
  private:
   /// From closed and nested rings.

@@ -62,12 +62,18 @@ Instance::Instance(const Instance& other, double nominal_radius, double radius, 
       jitter_(other.jitter_),
       shape_(other.shape_) {}
 
-Vector<quad> Instance::moved(Index vertex) const {
+Vector<double> Instance::move(Index vertex) const {
   const Point p = vertices_[vertex];
   // + 0.0 turns -0 into 0: equal coordinates must have equal bits.
   const std::uint64_t h = mix(std::bit_cast<std::uint64_t>(p.x + 0.0) +
                               0x9e3779b97f4a7c15ULL * mix(std::bit_cast<std::uint64_t>(p.y + 0.0)));
-  return {quad(p.x) + quad(jitter_ * fraction(h)), quad(p.y) + quad(jitter_ * fraction(mix(h + 1)))};
+  return {jitter_ * fraction(h), jitter_ * fraction(mix(h + 1))};
+}
+
+Vector<quad> Instance::moved(Index vertex) const {
+  const Point p = vertices_[vertex];
+  const Vector<double> by = move(vertex);
+  return {quad(p.x) + quad(by.x), quad(p.y) + quad(by.y)};
 }
 
 bool Instance::turns_left(Index at, Index from, Index to) const {

@@ -110,6 +110,8 @@ class Instance {
     }
   }
   Vector<quad> moved(Index vertex) const;
+  /// By how much it is moved; moved() rounds to quadruple precision.
+  Vector<double> move(Index vertex) const;
 
   /// Bound of the error that the move causes in a coordinate, as seen by Real.
   template <class Real>

@@ -25,6 +25,13 @@ class PieceShape {
     arc_ = !in.is_side(element);
     if (arc_) centre_ = in.vertices()[in.vertex_of(element)];
   }
+  /// Where the arc runs clockwise, its counter-clockwise reverse has the same points.
+  PieceShape(const Zone::Piece& piece, double radius)
+      : p_(piece.clockwise ? piece.end : piece.start),
+        q_(piece.clockwise ? piece.start : piece.end),
+        centre_(piece.center),
+        radius_(radius),
+        arc_(piece.kind == Zone::Kind::arc) {}
 
   Box box() const {
     Box b;
@@ -85,21 +92,46 @@ class PieceShape {
   bool arc_;
 };
 
+template <class AnyRings>
+std::vector<Index> rings_of_pieces(const AnyRings& rings) {
+  std::vector<Index> ring_of(rings.begin.back());
+  for (Index r = 0; r < rings.ring_count(); ++r)
+    std::fill(ring_of.begin() + rings.begin[r], ring_of.begin() + rings.begin[r + 1], r);
+  return ring_of;
+}
+
+bool runs_clockwise(const Instance& in, const Rings& rings, Index r);
+bool runs_clockwise(const ShapedRings& rings, double radius, Index r);
+
+/// Rings as nesting sees them.
 class Picture {
  public:
-  Picture(const Instance& in, const Rings& rings) : in_(in), rings_(rings), ring_of_(rings.element.size()) {
-    for (Index r = 0; r < rings.ring_count(); ++r) {
-      std::fill(ring_of_.begin() + rings.begin[r], ring_of_.begin() + rings.begin[r + 1], r);
-    }
-  }
+  Picture(const Instance& in, const Rings& rings) : in_(in), rings_(rings), ring_of_(rings_of_pieces(rings)) {}
   PieceShape shape(Index e) const {
     return {in_, rings_.element[e], rings_.vertex[e], rings_.vertex[rings_.next(ring_of_[e], e)]};
   }
   Index ring_of(Index e) const { return ring_of_[e]; }
+  const std::vector<Index>& begin() const { return rings_.begin; }
+  bool clockwise(Index r) const { return runs_clockwise(in_, rings_, r); }
 
  private:
   const Instance& in_;
   const Rings& rings_;
+  std::vector<Index> ring_of_;
+};
+
+class ShapedPicture {
+ public:
+  ShapedPicture(const ShapedRings& rings, double radius)
+      : rings_(rings), radius_(radius), ring_of_(rings_of_pieces(rings)) {}
+  PieceShape shape(Index e) const { return {rings_.piece[e], radius_}; }
+  Index ring_of(Index e) const { return ring_of_[e]; }
+  const std::vector<Index>& begin() const { return rings_.begin; }
+  bool clockwise(Index r) const { return runs_clockwise(rings_, radius_, r); }
+
+ private:
+  const ShapedRings& rings_;
+  double radius_;
   std::vector<Index> ring_of_;
 };
 
@@ -118,29 +150,42 @@ bool runs_clockwise(const Instance& in, const Rings& rings, Index r) {
   return area < 0;
 }
 
-}  // namespace
+bool runs_clockwise(const ShapedRings& rings, double radius, Index r) {
+  double twice = 0;
+  const Point base = rings.piece[rings.begin[r]].start;
+  for (Index e = rings.begin[r]; e < rings.begin[r + 1]; ++e) {
+    const Zone::Piece& p = rings.piece[e];
+    twice += cross(base, p.start, p.end);
+    if (p.kind != Zone::Kind::arc) continue;
+    const Point from = p.clockwise ? p.end : p.start, to = p.clockwise ? p.start : p.end, c = p.center;
+    double angle = std::atan2(cross(c, from, to), (from.x - c.x) * (to.x - c.x) + (from.y - c.y) * (to.y - c.y));
+    if (from == to) angle = 2 * M_PI;
+    else if (angle < -1e-6) angle += 2 * M_PI;  // else a short arc whose ends are rounded
+    twice += (p.clockwise ? -1 : 1) * radius * radius * (angle - std::sin(angle));
+  }
+  return twice < 0;
+}
 
-Result<Nesting> nest(const Instance& in, const Rings& rings, const Context& context) {
-  const Index count = rings.ring_count();
+template <class AnyPicture>
+Result<Nesting> nest_picture(const AnyPicture& picture, double slack, const Context& context) {
+  const std::vector<Index>& begin = picture.begin();
+  const Index count = Index(begin.size() - 1);
   Nesting nesting{std::vector<bool>(count), std::vector<Index>(count, none)};
-  
+
   Context quiet;
   quiet.threads = context.threads;
-  const Picture picture(in, rings);
-
   std::vector<char> clockwise(count);
   std::vector<Point> leftmost(count, {infinity, 0});
   kernel::parallel_blocks(quiet, count, 64, [&](std::size_t from, std::size_t to) {
     for (std::size_t r = from; r < to; ++r) {
-      clockwise[r] = runs_clockwise(in, rings, Index(r));
-      for (Index e = rings.begin[r]; e < rings.begin[r + 1]; ++e) {
+      clockwise[r] = picture.clockwise(Index(r));
+      for (Index e = begin[r]; e < begin[r + 1]; ++e) {
         const Point p = picture.shape(e).leftmost();
         if (p.x < leftmost[r].x) leftmost[r] = p;
       }
     }
   });
-  const double slack = 2 * in.enlargement();  // the least distance of opposite boundaries; vertices are that exact
-  const std::size_t pieces = rings.element.size();
+  const std::size_t pieces = begin.back();
   std::vector<Box> boxes((pieces + chunk - 1) / chunk);
   kernel::parallel_blocks(quiet, boxes.size(), 1 << 10, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from * chunk; i < std::min(pieces, to * chunk); ++i) {
@@ -183,6 +228,17 @@ Result<Nesting> nest(const Instance& in, const Rings& rings, const Context& cont
   return nesting;
 }
 
+}  // namespace
+
+Result<Nesting> nest(const Instance& in, const Rings& rings, const Context& context) {
+  const double slack = 2 * in.enlargement();  // the least distance of opposite boundaries; vertices are that exact
+  return nest_picture(Picture(in, rings), slack, context);
+}
+
+Result<Nesting> nest(const ShapedRings& rings, double radius, double slack, const Context& context) {
+  return nest_picture(ShapedPicture(rings, radius), slack, context);
+}
+
 Rings drop_rings_inside_polygons(const Network& network, Rings rings) {
   const PolygonLocator polygons(network);
   std::vector<std::int64_t> around;
@@ -194,6 +250,21 @@ Rings drop_rings_inside_polygons(const Network& network, Rings rings) {
     kept.element.insert(kept.element.end(), rings.element.begin() + first, rings.element.begin() + last);
     kept.vertex.insert(kept.vertex.end(), rings.vertex.begin() + first, rings.vertex.begin() + last);
     kept.begin.push_back(Index(kept.element.size()));
+  }
+  return kept;
+}
+
+ShapedRings rings_by_polygons(const Network& network, const ShapedRings& rings, Point origin, bool inside) {
+  const PolygonLocator polygons(network);
+  std::vector<std::int64_t> around;
+  const Point shift{origin.x - network.origin().x, origin.y - network.origin().y};
+  ShapedRings kept;
+  for (Index r = 0; r < rings.ring_count(); ++r) {
+    const auto first = rings.piece.begin() + rings.begin[r], last = rings.piece.begin() + rings.begin[r + 1];
+    polygons.find({first->start.x + shift.x, first->start.y + shift.y}, around);
+    if (around.empty() == inside) continue;
+    kept.piece.insert(kept.piece.end(), first, last);
+    kept.close();
   }
   return kept;
 }

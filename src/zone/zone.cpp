@@ -17,6 +17,11 @@ double sweep_angle(Point c, Point p, Point q) {
   return angle > 0 ? angle : angle + 2 * M_PI;
 }
 
+/// The angle that an arc spans, positive if it runs counter-clockwise.
+double signed_angle(const Zone::Piece& arc) {
+  return arc.clockwise ? -sweep_angle(arc.center, arc.end, arc.start) : sweep_angle(arc.center, arc.start, arc.end);
+}
+
 }  // namespace
 
 double Zone::scale() const { return std::max(radius_, network_->extent()); }
@@ -24,6 +29,7 @@ double Zone::scale() const { return std::max(radius_, network_->extent()); }
 double Zone::least_radius() const { return varied_ ? varied_->least : radius_; }
 
 Zone::Piece Zone::local_piece(std::uint32_t e) const {
+  if (!shaped_.empty()) return shaped_[e];
   const auto ring = std::upper_bound(ring_begin_.begin(), ring_begin_.end(), e);
   const std::uint32_t next = e + 1 < *ring ? e + 1 : *(ring - 1);
   Piece p{Kind::segment, vertex_[e], vertex_[next], {}, 0, false, radius_};
@@ -35,6 +41,7 @@ Zone::Piece Zone::local_piece(std::uint32_t e) const {
   } else {
     p.kind = Kind::arc;
     p.source = std::uint32_t(element_[e] - sides);
+    p.from_vertex = true;
     if (varied_) {
       p.radius = varied_->radius[p.source];
       p.source = varied_->vertex[p.source];
@@ -69,7 +76,7 @@ double Zone::ring_area(std::uint32_t r) const {
     const Piece p = local_piece(e);
     twice += (p.start.x - o.x) * (p.end.y - o.y) - (p.start.y - o.y) * (p.end.x - o.x);
     if (p.kind == Kind::arc) {
-      const double angle = sweep_angle(p.center, p.start, p.end);
+      const double angle = signed_angle(p);
       twice += p.radius * p.radius * (angle - std::sin(angle));
     }
   }
@@ -86,7 +93,7 @@ double Zone::perimeter() const {
   double sum = 0;
   for (std::uint32_t e = 0; e < piece_count(); ++e) {
     const Piece p = local_piece(e);
-    sum += p.kind == Kind::arc ? p.radius * sweep_angle(p.center, p.start, p.end) : distance(p.start, p.end);
+    sum += p.kind == Kind::arc ? p.radius * std::abs(signed_angle(p)) : distance(p.start, p.end);
   }
   return sum;
 }
@@ -109,6 +116,7 @@ std::optional<std::string> Zone::validate() const {
       }
       continue;
     }
+    if (p.role != Role::offset || p.from_vertex) continue;
     // Both ends of a segment are on the offset line of its source, and it runs with it.
     const auto s = network_->segments()[p.source];
     Point a = network_->vertices()[s.a], b = network_->vertices()[s.b];
@@ -116,7 +124,8 @@ std::optional<std::string> Zone::validate() const {
     const double length = distance(a, b), ux = (b.x - a.x) / length, uy = (b.y - a.y) / length;
     for (const Point q : {p.start, p.end}) {
       const double off = (q.x - a.x) * uy - (q.y - a.y) * ux;
-      if (!(std::abs(off - p.radius) <= tolerance)) return complain("a segment is off its offset line");
+      // Where a polygon was shrunk the zone is on the other side.
+      if (!(std::abs((inward_ ? std::abs(off) : off) - p.radius) <= tolerance)) return complain("a segment is off its offset line");
     }
     if ((p.end.x - p.start.x) * ux + (p.end.y - p.start.y) * uy < -tolerance) return complain("a segment runs backwards");
   }

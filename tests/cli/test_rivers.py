@@ -126,6 +126,22 @@ class Rivers(support.CliTest):
         self.assertAlmostEqual(y, 50, places=9)
         self.assertEqual(len(end), 2)
 
+    def test_attributes_of_the_input_are_kept(self):
+        self.need("ogr2ogr", "ogrinfo")
+        lines = BASIN.splitlines()
+        self.write("in.csv", "name,length,WKT\n" + "".join(f'r{i},{i}.5,"{line}"\n' for i, line in enumerate(lines)))
+        self.write("in.csvt", '"String","Real","WKT"\n')
+        done = self.succeed("rivers", "in.csv", "out.gpkg")
+        self.assertEqual(done.stderr, "")
+        for layer in ("sub_rivers", "reaches"):
+            rows = self.rows("out.gpkg", layer)
+            for row in rows:
+                number = int(row["feature"]) - 1  # OGR counts the rows of CSV from 1
+                self.assertEqual((row["name"], float(row["input_length"])), (f"r{number}", number + 0.5))
+                self.assertGreater(float(row["length"]), 0)
+        self.succeed("rivers", "in.csv", "zones.gpkg", "--radius", "0.1")
+        self.assertIn("  name (String) = r", self.ogr("ogrinfo", "-q", "-al", "zones.gpkg"))
+
     def test_field_that_tells_the_flow(self):
         self.need("ogr2ogr")
         flows = ("against", "1", "With_Digitized", "")

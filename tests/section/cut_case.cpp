@@ -17,9 +17,7 @@ std::string text_of(double x) {
   return text.str();
 }
 
-std::string at(Point3 p) {
-  return " at " + text_of(p.x) + ", " + text_of(p.y) + ", " + text_of(p.z);
-}
+std::string at(Point3 p) { return " at " + text_of(p.x) + ", " + text_of(p.y) + ", " + text_of(p.z); }
 
 /// The ring as a polygon, fine enough to tell the inside but very near the boundary.
 std::vector<Point3> fine_ring(std::span<const CutPiece> ring, double error) {
@@ -71,6 +69,16 @@ bool CutCase::passes(Point3 p, double within) const {
   return std::abs(double(solid_distance(triangles, p)) - surface->radius()) <= 1e-12 * scale();
 }
 
+bool CutCase::is_sound() const {
+  for (Surface::Index e = 0; e < surface->subdivision().edge_count(); ++e) {
+    if (surface->edge(e).kind == Surface::EdgeKind::rim) continue;
+    for (const Point3 p : surface->curve(e, 5)) {
+      if (!passes(p, 1e-9 * scale())) return false;
+    }
+  }
+  return true;
+}
+
 bool CutCase::is_at_tangent_walls(Point3 p, double within) const {
   for (Surface::Index v = 0; v < surface->subdivision().vertex_count; ++v) {
     const Point3 q = surface->vertex(v);
@@ -83,7 +91,7 @@ std::optional<CutCase> make_case(std::shared_ptr<const Terrain> terrain, double 
   Result<Surface> surface = compute_surface(terrain, {radius});
   Result<DropCutter> cutter = DropCutter::build(terrain, radius);
   if (!surface || !cutter) return std::nullopt;
-  CutCase c{std::move(name), terrain, std::make_shared<const Surface>(std::move(*surface)), {}, {}};
+  CutCase c{std::move(name), terrain, std::make_shared<const Surface>(std::move(*surface)), {}, {}, {}};
   c.cutter = std::move(*cutter);
   Result<SurfaceCutter> cuts = SurfaceCutter::build(c.surface);
   if (!cuts) return std::nullopt;
@@ -110,7 +118,8 @@ std::shared_ptr<const Terrain> grid_of(std::size_t columns, std::size_t rows,
   for (std::size_t r = 0; r < rows; ++r) {
     for (std::size_t c = 0; c < columns; ++c) heights.push_back(height(c, r));
   }
-  Result<Terrain> terrain = Terrain::from_grid({columns, rows, {0, 0}, 1, 1, Terrain::Split::rising}, std::move(heights));
+  Result<Terrain> terrain =
+      Terrain::from_grid({columns, rows, {0, 0}, 1, 1, Terrain::Split::rising}, std::move(heights));
   return std::make_shared<const Terrain>(std::move(*terrain));
 }
 
@@ -134,15 +143,18 @@ std::optional<std::string> fault_of(const CutCase& c, const Contour& contour, in
       for (const double s : {0.0, 0.01, 0.25, 0.5, 0.77, 0.99}) {
         const Point3 p = piece.at(s);
         if (!c.passes(p, tolerance) && !(piece.wall && c.is_at_tangent_walls(p, tolerance)))
-          return (piece.wall ? "below a rim the surface is " : "the surface is ") + text_of(c.height({p.x, p.y})) + at(p);
+          return (piece.wall ? "below a rim the surface is " : "the surface is ") + text_of(c.height({p.x, p.y})) +
+                 at(p);
       }
     }
     rings.push_back(fine_ring(ring, 1e-6 * c.scale()));
   }
   for (std::size_t r = 0; r < rings.size(); ++r) {
     std::size_t depth = 0;
-    for (std::size_t parent = contour.ring_parent[r]; parent != Contour::none; parent = contour.ring_parent[parent]) ++depth;
-    if (contour.ring_is_hole[r] != (depth % 2 == 1)) return "a ring of depth " + std::to_string(depth) + " is the wrong way round" + at(rings[r][0]);
+    for (std::size_t parent = contour.ring_parent[r]; parent != Contour::none; parent = contour.ring_parent[parent])
+      ++depth;
+    if (contour.ring_is_hole[r] != (depth % 2 == 1))
+      return "a ring of depth " + std::to_string(depth) + " is the wrong way round" + at(rings[r][0]);
   }
   const Point3 low = c.terrain->lowest(), high = c.terrain->highest();
   const double radius = c.surface->radius();
@@ -172,7 +184,9 @@ std::optional<std::string> fault_of(const CutCase& c, const Section& section, in
     for (std::size_t i = 0; i < chain.size(); ++i) {
       const CutPiece& piece = chain[i];
       if (i > 0 && !(chain[i - 1].end == piece.start)) return "a chain does not connect" + at(piece.start);
-      if (along(piece.start) < last - tolerance || along(piece.end) < along(piece.start) - tolerance)
+      // Where curves are tangent vertices are known along them to the root of the surface's tolerance only.
+      const double back = 0x1p-22 * c.scale();
+      if (along(piece.start) < last - back || along(piece.end) < along(piece.start) - back)
         return "a piece runs backwards" + at(piece.start);
       last = along(piece.end);
       for (const double s : {0.0, 0.01, 0.3, 0.5, 0.75, 0.99, 1.0}) {

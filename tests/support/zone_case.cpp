@@ -99,6 +99,7 @@ input::ResultPiece plain(const Zone::Piece& piece) {
   Real sweep = std::atan2(ux * vy - uy * vx, ux * vx + uy * vy);
   if (sweep < 0) sweep += two_pi;
   if (piece.start == piece.end) sweep = two_pi;
+  if (piece.clockwise && piece.start != piece.end) sweep -= two_pi;
   const Real c = std::cos(sweep / 2), s = std::sin(sweep / 2);
   p.middle = {double(piece.center.x + c * ux - s * uy), double(piece.center.y + s * ux + c * uy)};
   return p;
@@ -122,12 +123,9 @@ std::vector<input::ResultPolygon> plain(const Zone& zone) {
   return polygons;
 }
 
-std::optional<std::string> fault_in(const Zone& zone, const ZoneCase& c, double effort) {
-  if (const auto wrong = zone.validate()) return "not valid: " + *wrong;
-  verify::ZoneCheckOptions options;
-  options.radius = largest_radius(c), options.effort = effort;
-  const verify::Obstacle obstacle(c.parts, options.radius);
-  const auto report = verify::check_zone(plain(zone), obstacle, options, Context{1, {}, nullptr});
+namespace {
+
+std::optional<std::string> fault_in(const Result<verify::ZoneReport>& report) {
   if (!report) return "not checked: " + report.error().text();
   for (const verify::Check& check : report->checks) {
     if (check.ok()) continue;
@@ -137,14 +135,58 @@ std::optional<std::string> fault_in(const Zone& zone, const ZoneCase& c, double 
                   check.worst, check.limit, check.where.x, check.where.y, check.note.c_str());
     return buffer;
   }
+  return std::nullopt;
+}
+
+std::optional<std::string> difference_in_measures(const Zone& zone, const verify::ZoneReport& report, double step) {
   // Written coordinates are rounded, by half a step an end.
-  const double step = double(obstacle.resolution());
-  if (!(std::abs(zone.area() - report->area) <= 1e-9 * report->area + 2 * step * report->perimeter))
+  if (!(std::abs(zone.area() - report.area) <= 1e-9 * report.area + 2 * step * report.perimeter))
     return "Zone::area() differs from the area of its pieces";
-  if (!(std::abs(zone.perimeter() - report->perimeter) <=
-        1e-9 * report->perimeter + 4 * step * double(zone.piece_count())))
+  if (!(std::abs(zone.perimeter() - report.perimeter) <=
+        1e-9 * report.perimeter + 4 * step * double(zone.piece_count())))
     return "Zone::perimeter() differs from the length of its pieces";
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> fault_in(const Zone& zone, const ZoneCase& c, double effort) {
+  if (const auto wrong = zone.validate()) return "not valid: " + *wrong;
+  verify::ZoneCheckOptions options;
+  options.radius = largest_radius(c), options.effort = effort;
+  const verify::Obstacle obstacle(c.parts, options.radius);
+  const auto report = verify::check_zone(plain(zone), obstacle, options, Context{1, {}, nullptr});
+  if (auto fault = fault_in(report)) return fault;
+  return difference_in_measures(zone, *report, double(obstacle.resolution()));
+}
+
+Result<Zone> shape_of(const ZoneCase& c, const ShapeOptions& options) {
+  Result<Network> network = network_of(c);
+  if (!network) return network.error();
+  return compute_shape(std::make_shared<const Network>(std::move(network).value()), options);
+}
+
+std::optional<std::string> fault_in(const Zone& zone, const ZoneCase& c, const ShapeOptions& shape, double effort) {
+  if (const auto wrong = zone.validate()) return "not valid: " + *wrong;
+  verify::ZoneCheckOptions options;
+  options.effort = effort, options.max_error = shape.side == Side::both ? 0 : 2 * shape.max_error;
+  verify::ShapeQuestion question;
+  question.distance = shape.distance, question.mitre_limit = shape.mitre_limit, question.ring = shape.ring;
+  question.cap = verify::ShapeQuestion::Cap(shape.cap), question.join = verify::ShapeQuestion::Join(shape.join);
+  question.side = verify::ShapeQuestion::Side(shape.side);
+  const auto report = verify::check_shape(plain(zone), c.parts, question, options, Context{1, {}, nullptr});
+  if (auto fault = fault_in(report)) return fault;
+  return difference_in_measures(zone, *report, double(verify::Obstacle(c.parts).resolution()));
+}
+
+std::string text(const ShapeOptions& o) {
+  static constexpr const char* caps[] = {"round", "flat", "square"};
+  static constexpr const char* joins[] = {"round", "mitre", "bevel"};
+  static constexpr const char* sides[] = {"both", "left", "right"};
+  char buffer[160];
+  std::snprintf(buffer, sizeof buffer, "--radius %.17g --cap %s --join %s --mitre-limit %g --side %s%s", o.distance,
+                caps[int(o.cap)], joins[int(o.join)], o.mitre_limit, sides[int(o.side)], o.ring ? " --ring" : "");
+  return buffer;
 }
 
 std::optional<std::string> fault_in(const ZoneCase& c, double effort) {

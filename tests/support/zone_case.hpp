@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "krepl/shape.hpp"
 #include "krepl/zone.hpp"
 #include "verify/zone_verifier.hpp"
 
@@ -41,6 +42,13 @@ std::vector<input::ResultPolygon> plain(const Zone& zone);
 std::optional<std::string> fault_in(const Zone& zone, const ZoneCase& c, double effort = 0.02);
 /// Computes the zone and says what is wrong with it, an error of the computation included.
 std::optional<std::string> fault_in(const ZoneCase& c, double effort = 0.02);
+
+/// The zone of a case in some shape; the distance is the case's radius, or minus that.
+Result<Zone> shape_of(const ZoneCase& c, const ShapeOptions& options);
+/// What is wrong with such a zone: validate(), then the verifier's checks; nothing if it is right.
+std::optional<std::string> fault_in(const Zone& zone, const ZoneCase& c, const ShapeOptions& options,
+                                    double effort = 0.02);
+std::string text(const ShapeOptions& options);
 
 /// Number of outer rings and of holes.
 struct RingCounts {

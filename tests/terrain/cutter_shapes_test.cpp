@@ -49,7 +49,7 @@ TEST(CutterShapes, LevelGroundIsTouchedUnderTheAxis) {
     EXPECT_EQ(contact.height, 0) << text;
     // Where the tool is level it touches faces, edges and vertices at once, of which vertices come first.
     const bool level = tool(text).flat_radius() > 0;
-    EXPECT_EQ(level || contact.point == Point3{6.5, 7.25, 0}, true) << text;
+    EXPECT_TRUE(level || contact.point == (Point3{6.5, 7.25, 0})) << text;
     EXPECT_EQ(c.terrain->feature_kind(contact.feature), level ? Kind::vertex : Kind::face) << text;
     EXPECT_EQ(c.terrain->feature_kind(at(c, text, {8, 8}).feature), Kind::vertex) << text;
     EXPECT_EQ(at(c, text, {16 + 3, 8}).height, -tool(text).height(3)) << text;  // the rim over the border

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "krepl/zone.hpp"
+#include "zone/rings.hpp"
+
+namespace krepl::zone {
+
+/// Closed rings of pieces of any kind, one after the other, the zone on their left. Coordinates are relative to the
+/// network's origin; a piece ends where the next one of its ring starts.
+struct ShapedRings {
+  std::vector<Index> begin{0};
+  std::vector<Zone::Piece> piece;
+
+  Index ring_count() const { return Index(begin.size() - 1); }
+  void close() { begin.push_back(Index(piece.size())); }
+};
+
+/// The pieces that the rings of a zone stand for.
+ShapedRings shaped(const Instance& instance, const Rings& rings);
+
+/// The other way round: what was on the left is on the right.
+ShapedRings reversed(const ShapedRings& rings);
+
+}  // namespace krepl::zone
