@@ -39,9 +39,7 @@ _krepl() {
     --direction) mapfile -t COMPREPLY < <(compgen -W "zigzag one-way" -- "$current"); return ;;
     --post) mapfile -t COMPREPLY < <(compgen -W "linuxcnc grbl" -- "$current"); return ;;
     --control-point) mapfile -t COMPREPLY < <(compgen -W "tip centre" -- "$current"); return ;;
-    --tool) mapfile -t COMPREPLY < <(compgen -W "ball:" -- "$current"); return ;;
     --tool) mapfile -t COMPREPLY < <(compgen -W "ball: flat: bull: cone: taper:" -- "$current"); return ;;
-    --control-point) mapfile -t COMPREPLY < <(compgen -W "tip centre" -- "$current"); return ;;
     --prefer) mapfile -t COMPREPLY < <(compgen -W "length clearance" -- "$current"); return ;;
     --minimise) mapfile -t COMPREPLY < <(compgen -W "length climb" -- "$current"); return ;;
     --ties) mapfile -t COMPREPLY < <(compgen -W "high low" -- "$current"); return ;;

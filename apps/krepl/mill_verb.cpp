@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "krepl/cutter.hpp"
 #include "krepl/mill.hpp"
 #include "output/gcode_file.hpp"
 #include "output_target.hpp"
@@ -55,16 +56,13 @@ Status take(const char* option, const std::string& text, double& value, bool pos
   return std::monostate{};
 }
 
-/// KIND:DIAMETER.
 Status take_tool(const std::string& text, MillPlan& plan) {
-  const std::size_t colon = text.find(':');
-  const std::string kind = text.substr(0, colon);
-  if (colon == std::string::npos || kind != "ball")
-    return usage(fmt::format("tool '{}' is unknown", text), "give --tool ball:DIAMETER");
-  const Result<double> diameter = parse_positive("--tool ball:", text.substr(colon + 1));
-  if (!diameter) return diameter.error();
-  plan.parallel.tool.radius = *diameter / 2;
-  plan.gcode.tool_diameter = *diameter;
+  const Result<Cutter> cutter = Cutter::parse(text);
+  if (!cutter) return cutter.error();
+  if (cutter->kind() != Cutter::Kind::ball)
+    return usage(fmt::format("paths of tool '{}' are not made, only those of ball-nose cutters", text), "give --tool ball:DIAMETER");
+  plan.parallel.tool.radius = cutter->radius();
+  plan.gcode.tool_diameter = cutter->diameter();
   plan.gcode.tool_name = "ball-nose";
   return std::monostate{};
 }

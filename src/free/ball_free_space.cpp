@@ -164,6 +164,7 @@ std::optional<BallFreeSpace::Cut> BallFreeSpace::Index::first_contact(Point3 fro
   if (const Contact start = clearance(from, radius); !start.free()) return Cut{0, 0, from + origin_, start};
   const Tolerance tolerance = this->tolerance(radius, {from, to});
   const Vector<double> motion(to, from);
+  const double speed = length(motion);
   double limit = std::nextafter(1.0, 2.0);
   std::optional<Part> hit;
   const auto at = [&](double t) { return from + Point3{t * motion.x, t * motion.y, t * motion.z}; };
@@ -171,19 +172,24 @@ std::optional<BallFreeSpace::Cut> BallFreeSpace::Index::first_contact(Point3 fro
     const auto measure = [&](double t) {
       const Vector<double> near = b.nearest(at(t));
       const double distance = length(near);
-      return Approach{distance, -dot(near, motion) / distance};
+      return Approach{distance, -dot(near, motion) / distance - tolerance.slope_error(distance, speed)};
     };
     return fall_to(measure, radius + tolerance.margin, 0, 1, 3);
   };
-  const auto cut_by = [&]<class Real>(const Part& part, Real) {
+  const auto approach = [&]<class Real>(const Part& part, double t, Real) {
+    const Vector<Real> v(motion.x, motion.y, motion.z), shift = Real(t) * v;
+    const Vector<Real> p[3] = {Vector<Real>(part.corner[0], from) - shift, Vector<Real>(part.corner[1], from) - shift,
+                               Vector<Real>(part.corner[2], from) - shift};
+    const Nearest<Real> near = nearest_of_shadow(p, part.vertical);
+    const Real distance = near.distance();
+    return Approach{double(distance), double(-dot(near.at, v) / distance)};
+  };
+  const auto cut_by = [&](const Part& part, bool sliver) {
     const auto measure = [&](double t) {
-      const Vector<Real> shift(t * Real(motion.x), t * Real(motion.y), t * Real(motion.z));
-      const Vector<Real> p[3] = {Vector<Real>(part.corner[0], from) - shift, Vector<Real>(part.corner[1], from) - shift,
-                                 Vector<Real>(part.corner[2], from) - shift};
-      const Nearest<Real> near = nearest_of_shadow(p, part.vertical);
-      const Real distance = near.distance();
-      const Vector<Real> v(motion.x, motion.y, motion.z);
-      return Approach{double(distance), double(-dot(near.at, v) / distance)};
+      const Approach rough = sliver ? Approach{} : approach(part, t, double());
+      // Where a motion is nearly level with what it passes, rounding must not decide whether it comes nearer.
+      const bool sure = std::abs(rough.slope) > tolerance.slope_error(rough.distance, speed);
+      return sliver || !sure ? approach(part, t, quad()) : rough;
     };
     return first_cut(measure, radius, tolerance.touch, std::min(limit, 1.0));
   };
@@ -193,7 +199,7 @@ std::optional<BallFreeSpace::Cut> BallFreeSpace::Index::first_contact(Point3 fro
       for (const Point3& p : part.corner) box.add(p);
       if (!(bound(box) < limit)) return;
       const Vector<double> p[3] = {{part.corner[0], from}, {part.corner[1], from}, {part.corner[2], from}};
-      const double t = is_sliver(p) ? cut_by(part, quad()) : cut_by(part, double());
+      const double t = cut_by(part, is_sliver(p));
       if (t < limit) limit = t, hit = part;
     });
   });

@@ -165,6 +165,7 @@ std::optional<DiskFreeSpace::Cut> DiskFreeSpace::Index::first_contact(Point from
   if (const Contact start = clearance(from, radius); !start.free()) return Cut{0, 0, from + network_.origin(), start};
   const Tolerance tolerance = this->tolerance(radius, {from, to});
   const Vector<double> motion = seen<double>(to, from);
+  const double speed = std::hypot(motion.x, motion.y);
   double limit = std::nextafter(1.0, 2.0);
   std::optional<std::size_t> hit;
   const auto at = [&](double t) { return from + Point{t * motion.x, t * motion.y}; };
@@ -172,15 +173,24 @@ std::optional<DiskFreeSpace::Cut> DiskFreeSpace::Index::first_contact(Point from
     const auto measure = [&](double t) {
       const Vector<double> near = nearest_of(b, at(t));
       const double distance = std::hypot(near.x, near.y);
-      return Approach{distance, -dot(near, motion) / distance};
+      return Approach{distance, -dot(near, motion) / distance - tolerance.slope_error(distance, speed)};
     };
     return fall_to(measure, radius + tolerance.margin, 0, 1, 3);
   };
+  const auto approach = [&]<class Real>(std::size_t i, double t, Real) {
+    const Vector<Real> v(motion.x, motion.y, 0), shift = Real(t) * v;
+    const Item ends = item(i);
+    const Nearest<Real> near = nearest_of_segment(seen<Real>(network_.vertices()[ends.a], from) - shift,
+                                                  seen<Real>(network_.vertices()[ends.b], from) - shift);
+    const Real distance = near.distance();
+    return Approach{double(distance), double(-dot(near.at, v) / distance)};
+  };
   tree_.nearest(limit, bound, [&](std::size_t i) {
     const auto measure = [&](double t) {
-      const Nearest<double> near = nearest<double>(i, at(t));
-      const double distance = near.distance();
-      return Approach{distance, -dot(near.at, motion) / distance};
+      const Approach rough = approach(i, t, double());
+      // Where a motion is nearly parallel, rounding must not decide whether it comes nearer.
+      const bool sure = std::abs(rough.slope) > tolerance.slope_error(rough.distance, speed);
+      return sure ? rough : approach(i, t, quad());
     };
     const double t = first_cut(measure, radius, tolerance.touch, std::min(limit, 1.0));
     if (t < limit) limit = t, hit = i;

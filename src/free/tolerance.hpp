@@ -19,6 +19,9 @@ struct Tolerance {
   double touch;   ///< what is nearer than that to contact counts as contact
   double margin;  ///< by which the nearest obstacle may seem farther than another one
 
+  /// How far off the slope of a rough distance may be: the direction to the obstacle is off by rounding over distance.
+  double slope_error(double distance, double speed) const { return speed * touch / distance; }
+
   double clearance(double measured) const { return std::abs(measured) <= touch ? 0 : measured; }
 };
 

@@ -155,6 +155,12 @@ class Mill(support.CliTest):
         self.assertTrue(done.stdout.startswith("(part.off, parallel by krepl)\n"))
         self.assertIn("lines of G-code", done.stderr)
 
+    def test_the_simulation_finds_no_gouge(self):
+        self.succeed("mill", "part.off", "rough.ngc", *OPTIONS, "--strategy", "rough", "--step-down", "1", "--stock-top", "5")
+        self.succeed("simulate", "rough.ngc", "--against", "part.off", "--tool", "ball:3", "--stock", "0,5")
+        self.program()
+        self.succeed("verify", "out.ngc", "--against", "part.off", "--tool", "ball:3")
+
     def test_the_interpreter_accepts_it(self):
         self.need("rs274")
         self.program()
@@ -179,7 +185,7 @@ class Messages(support.CliTest):
         step = ("--step-over", "1")
         self.refuse("neither --step-over nor --scallop is given; give one of them")
         self.refuse("both --step-over and --scallop are given; give one of them", *step, "--scallop", "0.1")
-        self.refuse("tool 'flat:3' is unknown; give --tool ball:DIAMETER", *step, tool=("--tool", "flat:3"))
+        self.refuse("paths of tool 'flat:3' are not made, only those of ball-nose cutters; give --tool ball:DIAMETER", *step, tool=("--tool", "flat:3"))
         self.refuse("--strategy 'spiral' is unknown; give one of parallel, rough", *step, "--strategy", "spiral")
         self.refuse("--post 'fanuc' is unknown; give one of linuxcnc, grbl", *step, "--post", "fanuc")
         self.refuse("--angle 'north' is not a finite number; give one", *step, "--angle", "north")
