@@ -186,10 +186,13 @@ std::optional<BallFreeSpace::Cut> BallFreeSpace::Index::first_contact(Point3 fro
   };
   const auto cut_by = [&](const Part& part, bool sliver) {
     const auto measure = [&](double t) {
-      const Approach rough = sliver ? Approach{} : approach(part, t, double());
-      // Where a motion is nearly level with what it passes, rounding must not decide whether it comes nearer.
-      const bool sure = std::abs(rough.slope) > tolerance.slope_error(rough.distance, speed);
-      return sliver || !sure ? approach(part, t, quad()) : rough;
+      if (sliver) return approach(part, t, quad());
+      const Approach rough = approach(part, t, double());
+      // Where a motion is nearly level with what it passes, rounding must not decide whether it comes nearer. A step on
+      // a slope that is too steep rather than too gentle does not go too far.
+      const double error = tolerance.slope_error(rough.distance, speed);
+      if (std::abs(rough.slope) > error) return Approach{rough.distance, rough.slope - error};
+      return approach(part, t, quad());
     };
     return first_cut(measure, radius, tolerance.touch, std::min(limit, 1.0));
   };

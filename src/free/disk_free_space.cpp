@@ -188,9 +188,11 @@ std::optional<DiskFreeSpace::Cut> DiskFreeSpace::Index::first_contact(Point from
   tree_.nearest(limit, bound, [&](std::size_t i) {
     const auto measure = [&](double t) {
       const Approach rough = approach(i, t, double());
-      // Where a motion is nearly parallel, rounding must not decide whether it comes nearer.
-      const bool sure = std::abs(rough.slope) > tolerance.slope_error(rough.distance, speed);
-      return sure ? rough : approach(i, t, quad());
+      // Where a motion is nearly parallel, rounding must not decide whether it comes nearer. A step on a slope that is
+      // too steep rather than too gentle does not go too far.
+      const double error = tolerance.slope_error(rough.distance, speed);
+      if (std::abs(rough.slope) > error) return Approach{rough.distance, rough.slope - error};
+      return approach(i, t, quad());
     };
     const double t = first_cut(measure, radius, tolerance.touch, std::min(limit, 1.0));
     if (t < limit) limit = t, hit = i;
