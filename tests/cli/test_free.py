@@ -25,7 +25,7 @@ def nearest(p, t):
 
     def best(f, high):
         low = 0.0
-        for _ in range(34):
+        for _ in range(45):
             left, right = low + (high - low) / 3, high - (high - low) / 3
             low, high = (low, right) if f(left) < f(right) else (left, high)
         return f((low + high) / 2)
@@ -60,7 +60,7 @@ class Free(support.CliTest):
         parts = triangles(ROWS, (0, 0))
         low, high = [[f(q[k] for t in parts for q in t) for k in range(3)] for f in (min, max)]
         rng = random.Random(20060401)
-        places = [[rng.uniform(a, b) for a, b in zip(low, high)] for _ in range(6)]
+        places = [[rng.uniform(a, b) for a, b in zip(low, high)] for _ in range(4)]
         for p in places:
             p[2] = high[2] + rng.uniform(0, 2)  # above everything, where no wall counts
         self.write("at.csv", "x,y,z\n" + "".join(",".join(map(repr, p)) + "\n" for p in places))
