@@ -82,6 +82,16 @@ Result<Plan> make_plan(const Terrain& part, const ParallelOptions& o) {
   return plan;
 }
 
+Band make_band(const Plan& plan, const MillAccuracy& a) {
+  const double room = a.tolerance - 2 * a.unit - 2 * a.arc_error;  // at least 14 units
+  Band band;
+  band.sagitta = room / 16, band.proof_accuracy = room / 8;
+  band.within = (room - band.sagitta - band.proof_accuracy) / 2;
+  band.proof_radius = plan.radius + a.arc_error + band.sagitta;
+  band.curve_radius = band.proof_radius + band.proof_accuracy + band.within;
+  return band;
+}
+
 void measure(const ToolPath& path, const MillMotion& motion, MillReport& report) {
   Point3 at = path.start;
   for (const Move& m : path.moves) {
