@@ -22,20 +22,21 @@ struct MillVerbOptions {
   TerrainOptions terrain;
   std::string output, tool, strategy = "parallel", direction, post = "linuxcnc", unit = "mm",
                             control_point = "tip";
-  std::string step_down, ramp_angle, stock_top, stock_margin, steep;
+  std::string step_down, ramp_angle, stock_top, stock_margin, steep, valley_angle, shortest;
   std::string step_over, scallop, tolerance, allowance, angle, bottom, safe_height, clearance, feed, plunge_feed,
       spindle;
   int decimals = -1, tool_number = 1;
   bool no_arcs = false;
 };
 
-enum class Strategy { parallel, rough, waterline };
+enum class Strategy { parallel, rough, waterline, pencil };
 
 struct MillPlan {
   Strategy strategy = Strategy::parallel;
   ParallelOptions parallel;  ///< of other strategies what they share with it
   RoughOptions rough;
   WaterlineOptions waterline;
+  PencilOptions pencil;
   output::GcodeOptions gcode;
   input::TerrainRequest request;
 };
@@ -130,13 +131,16 @@ Status check_meaning(const MillVerbOptions& o, Strategy strategy) {
     const char* strategies;
   };
   const bool parallel = strategy == Strategy::parallel, rough = strategy == Strategy::rough,
-             waterline = strategy == Strategy::waterline;
+             waterline = strategy == Strategy::waterline, pencil = strategy == Strategy::pencil;
   const Meaning meanings[] = {{"--step-over", o.step_over, parallel || rough, "parallel, rough"},
                               {"--scallop", o.scallop, parallel, "parallel"},
                               {"--angle", o.angle, parallel || rough, "parallel, rough"},
                               {"--direction", o.direction, parallel || waterline, "parallel, waterline"},
                               {"--step-down", o.step_down, rough || waterline, "rough, waterline"},
                               {"--steep", o.steep, waterline, "waterline"},
+                              {"--valley-angle", o.valley_angle, pencil, "pencil"},
+                              {"--shortest", o.shortest, pencil, "pencil"},
+                              {"--bottom", o.bottom, !pencil, "parallel, rough, waterline"},
                               {"--ramp-angle", o.ramp_angle, rough, "rough"},
                               {"--stock-top", o.stock_top, rough, "rough"},
                               {"--stock-margin", o.stock_margin, rough, "rough"}};
@@ -191,10 +195,19 @@ Status take_passes(const MillVerbOptions& o, MillPlan& plan) {
   return choose("--direction", o.direction, {{"zigzag", true}, {"one-way", false}}, p.zigzag);
 }
 
+Status take_pencil(const MillVerbOptions& o, MillPlan& plan) {
+  const ParallelOptions& p = plan.parallel;
+  PencilOptions& v = plan.pencil;
+  v.tool = p.tool, v.accuracy = p.accuracy, v.motion = p.motion;
+  if (Status s = take("--valley-angle", o.valley_angle, v.valley_angle, false); !s) return s;
+  return take("--shortest", o.shortest, v.shortest);
+}
+
 Result<MillPlan> make_plan(const MillVerbOptions& o) {
   MillPlan plan;
   if (Status s = choose("--strategy", o.strategy,
-                        {{"parallel", Strategy::parallel}, {"rough", Strategy::rough}, {"waterline", Strategy::waterline}},
+                        {{"parallel", Strategy::parallel}, {"rough", Strategy::rough}, {"waterline", Strategy::waterline},
+                         {"pencil", Strategy::pencil}},
                         plan.strategy);
       !s)
     return s.error();
@@ -207,6 +220,8 @@ Result<MillPlan> make_plan(const MillVerbOptions& o) {
     if (Status s = take_rough(o, plan); !s) return s.error();
   if (plan.strategy == Strategy::waterline)
     if (Status s = take_waterline(o, plan); !s) return s.error();
+  if (plan.strategy == Strategy::pencil)
+    if (Status s = take_pencil(o, plan); !s) return s.error();
   plan.gcode.tool_number = o.tool_number;
   plan.gcode.strategy = o.strategy;
   const Result<input::TerrainRequest> request = terrain_request(o.terrain);
@@ -217,9 +232,13 @@ Result<MillPlan> make_plan(const MillVerbOptions& o) {
 }
 
 void tell_strategy(const MillReport& r, Strategy strategy, Session& session) {
-  if (strategy == Strategy::waterline) {
-    session.detail(fmt::format("levels     {}; {} lines, {} points along them, {} rings are too small", r.levels, r.passes,
-                               r.curve_points, r.skipped_cuts));
+  if (strategy == Strategy::waterline || strategy == Strategy::pencil) {
+    if (strategy == Strategy::waterline)
+      session.detail(fmt::format("levels     {}; {} lines, {} points along them, {} rings are too small", r.levels,
+                                 r.passes, r.curve_points, r.skipped_cuts));
+    else
+      session.detail(fmt::format("valleys    {}, {} points along them, {} are too short", r.passes, r.curve_points,
+                                 r.skipped_cuts));
     session.detail(fmt::format("proofs     {} moves are not proven free and taken over what is in their way", r.lifted_moves));
     return;
   }
@@ -249,6 +268,7 @@ Result<MilledPath> mill_part(const std::shared_ptr<const Terrain>& part, const M
   switch (plan.strategy) {
     case Strategy::rough: return mill_rough(part, plan.rough, context);
     case Strategy::waterline: return mill_waterline(part, plan.waterline, context);
+    case Strategy::pencil: return mill_pencil(part, plan.pencil, context);
     case Strategy::parallel: break;
   }
   return mill_parallel(part, plan.parallel, context);
@@ -280,7 +300,7 @@ void add_path_options(CLI::App& verb, MillVerbOptions& o) {
   verb.add_option("--tool", o.tool, "Cutter: ball:DIAMETER")->required()->type_name("KIND:SIZE");
   verb.add_option("--strategy", o.strategy,
                   "parallel (default): passes in vertical planes; rough: out of a block, level by level; waterline: around the "
-                  "part, level by level")
+                  "part, level by level; pencil: along the valleys and the feet of walls")
       ->type_name("NAME");
   verb.add_option("--step-over", o.step_over, "Distance of passes")->type_name("LENGTH");
   verb.add_option("--scallop", o.scallop, "Instead of it: greatest height of what is left between passes")
@@ -298,6 +318,11 @@ void add_path_options(CLI::App& verb, MillVerbOptions& o) {
   verb.add_option("--step-down", o.step_down, "rough, waterline: greatest distance of levels")->type_name("LENGTH");
   verb.add_option("--steep", o.steep, "waterline: only where the surface is at least so steep (default: everywhere)")
       ->type_name("DEGREES");
+  verb.add_option("--valley-angle", o.valley_angle,
+                  "pencil: least angle between the normals of a valley's sides (default: 20)")
+      ->type_name("DEGREES");
+  verb.add_option("--shortest", o.shortest, "pencil: valleys shorter than that are left out (default: the tool's radius)")
+      ->type_name("LENGTH");
   verb.add_option("--ramp-angle", o.ramp_angle, "rough: steepest way down into the stock (default: 3)")
       ->type_name("DEGREES");
   verb.add_option("--stock-top", o.stock_top, "rough: top of the block (default: the part's)")->type_name("Z");

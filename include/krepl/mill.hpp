@@ -73,8 +73,8 @@ struct MillReport {
   std::uint64_t touches = 0;        ///< evaluations of a triangle's sum with the ball
   std::size_t levels = 0;           ///< of roughing and waterlines
   std::size_t skipped_cuts = 0;     ///< of roughing: stretches of passes too short to be entered; of waterlines: rings as
-                                    ///< small as a unit
-  std::size_t lifted_moves = 0;     ///< of waterlines: moves not proven free, taken over what is in their way
+                                    ///< small as a unit; of pencil passes: short valleys
+  std::size_t lifted_moves = 0;     ///< of waterlines and pencil passes: moves not proven free, taken over what is in their way
   double step_over = 0;             ///< used
   std::size_t extra_passes = 0;     ///< parts of passes between others, for the sake of the scallop
   std::size_t sections = 0;         ///< across the passes, looked at for that
@@ -152,5 +152,24 @@ struct WaterlineOptions {
 /// Time: that of the surface and of the contours, and some 20 us a move.
 Result<MilledPath> mill_waterline(std::shared_ptr<const Terrain> part, const WaterlineOptions& options,
                                   const Context& context = {});
+
+struct PencilOptions {
+  MillTool tool;
+  MillAccuracy accuracy;
+  MillMotion motion;
+  double valley_angle = 20;  ///< only valleys where the two sides' normals differ by as much, degrees, 0 to below 180
+  double shortest = -1;      ///< chains of valleys shorter than that are left out; negative: the tool's radius
+};
+
+/// Pencil passes: along the valleys of the surface of the ball's centre (of the part grown by the allowance), where the ball touches
+/// the part in two places, and along the feet of vertical walls, where the surface jumps.
+///
+/// They are edges of the exact surface's subdivision, joined at its vertices to chains, where several meet the straightest two. Lines in
+/// space are fitted to them, and each is proven free, as those of mill_waterline. Each chain is run from the end nearer to where the tool is,
+/// the nearest chain first (of more than 4,000, in the order of the subdivision). The same path for any number of threads.
+///
+/// Errors: as mill_parallel and compute_surface; an angle out of its range; no such valley.
+Result<MilledPath> mill_pencil(std::shared_ptr<const Terrain> part, const PencilOptions& options,
+                               const Context& context = {});
 
 }  // namespace krepl

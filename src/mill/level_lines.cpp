@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/vectors.hpp"
+#include "mill/touch_normal.hpp"
 
 namespace krepl::mill {
 namespace {
@@ -15,24 +16,6 @@ struct Ring {
   std::vector<Point> points;
   std::vector<char> is_steep;
 };
-
-/// The cosine of the surface's slope where the ball over p touches a feature: the upward part of its normal.
-double slope_cosine(const Terrain& terrain, Surface::Index feature, Point3 p) {
-  const Terrain::Corners corners = terrain.corners(feature);
-  const Point3 a = corners.point[0];
-  Point3 normal = p - a;
-  switch (terrain.feature_kind(feature)) {
-    case Terrain::FeatureKind::vertex: break;
-    case Terrain::FeatureKind::edge: {
-      const Point3 d = corners.point[1] - a;
-      normal = normal - (dot(normal, d) / dot(d, d)) * d;
-      break;
-    }
-    case Terrain::FeatureKind::face: normal = cross(corners.point[1] - a, corners.point[2] - a); break;
-  }
-  const double size = length(normal);
-  return size > 0 ? std::abs(normal.z) / size : 1;
-}
 
 class RingMaker {
  public:
@@ -65,7 +48,7 @@ class RingMaker {
   bool is_near(Point p, Point q) const { return std::hypot(p.x - q.x, p.y - q.y) < o_.smallest; }
   bool is_steep(const CutPiece& piece, Point3 a, Point3 b) const {
     if (o_.steep <= 0 || piece.wall || piece.feature == Surface::none) return true;
-    return slope_cosine(terrain_, piece.feature, 0.5 * (a + b)) <= std::cos(o_.steep);
+    return touch_normal(terrain_, piece.feature, 0.5 * (a + b)).z <= std::cos(o_.steep);
   }
 
   const Terrain& terrain_;

@@ -82,6 +82,14 @@ Result<Plan> make_plan(const Terrain& part, const ParallelOptions& o) {
   return plan;
 }
 
+Result<Plan> make_plan(const Terrain& part, const MillTool& tool, const MillAccuracy& accuracy, const MillMotion& motion,
+                       std::optional<double> bottom) {
+  ParallelOptions o;
+  o.tool = tool, o.accuracy = accuracy, o.motion = motion, o.bottom = bottom;
+  o.step_over = part.extent() + 8 * accuracy.unit;  // there are no passes
+  return make_plan(part, o);
+}
+
 Band make_band(const Plan& plan, const MillAccuracy& a) {
   const double room = a.tolerance - 2 * a.unit - 2 * a.arc_error;  // at least 14 units
   Band band;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "krepl/mill.hpp"
@@ -37,6 +38,10 @@ bool is_positive(double x);
 
 /// Checks the options, all but step_down and the like of other strategies.
 Result<Plan> make_plan(const Terrain& part, const ParallelOptions& options);
+
+/// Checks what strategies without parallel passes share.
+Result<Plan> make_plan(const Terrain& part, const MillTool& tool, const MillAccuracy& accuracy, const MillMotion& motion,
+                       std::optional<double> bottom);
 
 /// Adds counts and lengths of a path.
 void measure(const ToolPath& path, const MillMotion& motion, MillReport& report);

@@ -34,14 +34,6 @@ Status check(const WaterlineOptions& o) {
   return std::monostate{};
 }
 
-/// The options that all strategies check alike.
-ParallelOptions as_parallel(const Terrain& part, const WaterlineOptions& o) {
-  ParallelOptions p;
-  p.tool = o.tool, p.accuracy = o.accuracy, p.motion = o.motion, p.bottom = o.bottom;
-  p.step_over = part.extent() + 8 * o.accuracy.unit;  // it has no passes
-  return p;
-}
-
 /// Heights of levels in units, from below the top down.
 Result<std::vector<std::int64_t>> level_heights(const Terrain& part, const Plan& plan, const Band& band,
                                                 const WaterlineOptions& o) {
@@ -108,7 +100,7 @@ struct Levels {
 Result<MilledPath> mill_waterline(std::shared_ptr<const Terrain> part, const WaterlineOptions& o,
                                   const Context& context) {
   if (Status checked = check(o); !checked) return checked.error();
-  const Result<Plan> plan = mill::make_plan(*part, as_parallel(*part, o));
+  const Result<Plan> plan = mill::make_plan(*part, o.tool, o.accuracy, o.motion, o.bottom);
   if (!plan) return plan.error();
   const Band band = mill::make_band(*plan, o.accuracy);
   const auto heights = level_heights(*part, *plan, band, o);

@@ -94,6 +94,17 @@ TEST_P(RealParts, AreNotCutIntoByWaterlines) {
   const double extent = std::max(part.extent(), o.tool.radius);
   const PathCheck check = check_path(part, file->terrain, milled->path, o.tool.radius, o.tool.radius + o.accuracy.tolerance,
                                      -1e300, spacing / 10, 10, [feed](const Move& m) { return m.feed == feed; });
+  PencilOptions v;
+  v.tool = o.tool, v.accuracy = o.accuracy;
+  if (const auto valleys = mill_pencil(file->terrain, v)) {
+    const PathCheck beside = check_path(part, file->terrain, valleys->path, o.tool.radius, o.tool.radius + o.accuracy.tolerance,
+                                        -1e300, spacing / 10, 10, [feed](const Move& m) { return m.feed == feed; });
+    EXPECT_EQ(valleys->report.lifted_moves, 0u) << "pencil";
+    EXPECT_LE(beside.deepest, 1e-9 * extent) << "pencil, at " << beside.deepest_at.x << " " << beside.deepest_at.y;
+    EXPECT_LE(beside.highest, 1e-9 * extent) << "pencil, at " << beside.highest_at.x << " " << beside.highest_at.y;
+  } else {
+    EXPECT_NE(valleys.error().text().find("no valley"), std::string::npos) << valleys.error().text();
+  }
   EXPECT_GT(check.places, 100u);
   EXPECT_EQ(milled->report.lifted_moves, 0u);
   EXPECT_LE(check.deepest, 1e-9 * extent) << "at " << check.deepest_at.x << " " << check.deepest_at.y;
