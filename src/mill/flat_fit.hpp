@@ -27,9 +27,9 @@ struct FlatFitOptions {
 
 /// Fits lines and arcs between lattice points to a polyline of a level plane.
 ///
-/// Every place of a move is near one of the polyline, in order: lines and arcs are accepted only where the polyline runs
-/// on along them, all of its vertices are within the distance, and its segments do not come nearer to the centre of an
-/// arc. From each start the farther of line and arc is taken; ends are found by doubling and halving.
+/// Every place of a move is near one of the polyline, in order: lines and arcs are accepted only where the polyline
+/// runs on along them, all of its vertices are within the distance, and its segments do not come nearer to the centre
+/// of an arc. From each start the farther of line and arc is taken; ends are found by doubling and halving.
 class FlatFit {
  public:
   FlatFit(const std::vector<Point>& polyline, const FlatFitOptions& options) : points_(polyline), o_(options) {}

@@ -16,8 +16,8 @@ class FreeMoves {
   FreeMoves(const DropCutter& cutter, const Band& band, const Plan& plan, double unit)
       : cutter_(cutter), bodies_(cutter), band_(band), plan_(plan), unit_(unit) {}
 
-  /// Takes moves that are not proven free, lines and arcs in level planes, over what is in their way: up, level, down. Returns
-  /// how many.
+  /// Takes moves that are not proven free, lines and arcs in level planes, over what is in their way: up, level, down.
+  /// Returns how many.
   std::size_t settle(Cut& cut);
 
  private:
@@ -36,7 +36,8 @@ class FreeMoves {
   std::optional<DriveCurve> curve_;
 };
 
-/// Points of a level arc from `from`, the radius changing evenly, so that it is within `sagitta` of the chords between them.
+/// Points of a level arc from `from`, the radius changing evenly, so that it is within `sagitta` of the chords between
+/// them.
 void append_chords(Point3 from, const Move& arc, double sagitta, std::vector<Point3>& points);
 
 }  // namespace krepl::mill

@@ -106,8 +106,8 @@ void append_steep(const Ring& ring, std::vector<LevelLine>& lines) {
 
 }  // namespace
 
-std::vector<LevelLine> level_lines(const Contour& contour, const Surface& surface, const LevelLineOptions& options, Point& at,
-                                   std::size_t& skipped) {
+std::vector<LevelLine> level_lines(const Contour& contour, const Surface& surface, const LevelLineOptions& options,
+                                   Point& at, std::size_t& skipped) {
   std::vector<LevelLine> lines;
   const RingMaker maker(surface, options);
   for (const std::size_t r : by_nesting(contour)) {

@@ -64,8 +64,9 @@ Cut make_cut(const Chain& chain, const mill::SpaceLattice& lattice, double withi
 Error cancelled() { return {ErrorCode::cancelled, "cancelled", "", ""}; }
 
 /// Cuts along the valleys, and what they need to be linked.
-Result<std::vector<Cut>> cut_valleys(const std::shared_ptr<const Terrain>& part, const DropCutter& cutter, const Plan& plan,
-                                     const PencilOptions& o, MillReport& report, const Context& context) {
+Result<std::vector<Cut>> cut_valleys(const std::shared_ptr<const Terrain>& part, const DropCutter& cutter,
+                                     const Plan& plan, const PencilOptions& o, MillReport& report,
+                                     const Context& context) {
   const double unit = o.accuracy.unit;
   const mill::Band band = mill::make_band(plan, o.accuracy);
   const Result<DropCutter> prover = cutter.with_radius(band.proof_radius);
@@ -114,14 +115,14 @@ Result<MilledPath> mill_pencil(std::shared_ptr<const Terrain> part, const Pencil
   Result<std::vector<Cut>> cuts = cut_valleys(part, *cutter, *plan, o, milled.report, context);
   if (!cuts) return cuts.error();
   if (cuts->empty())
-    return Error{ErrorCode::input, "the surface has no valley so sharp and long", "", "use a smaller angle or length, or a smaller tool"};
+    return Error{ErrorCode::input, "the surface has no valley so sharp and long", "",
+                 "use a smaller angle or length, or a smaller tool"};
   milled.report.passes = milled.report.cuts = cuts->size();
   const double clearance = o.motion.clearance >= 0 ? o.motion.clearance : o.tool.radius / 2;
-  Result<ToolPath> path =
-      mill::link_cuts(*cutter, std::move(*cuts),
-                      {plan->safe, clearance, o.motion.plunge_feed, o.motion.plunge_feed, o.tool.radius, plan->floor,
-                       o.accuracy.unit, plan->tip},
-                      context);
+  Result<ToolPath> path = mill::link_cuts(*cutter, std::move(*cuts),
+                                          {plan->safe, clearance, o.motion.plunge_feed, o.motion.plunge_feed,
+                                           o.tool.radius, plan->floor, o.accuracy.unit, plan->tip},
+                                          context);
   if (!path) return path.error();
   milled.path = std::move(*path);
   mill::measure(milled.path, o.motion, milled.report);

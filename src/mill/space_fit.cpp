@@ -10,10 +10,12 @@ namespace krepl::mill {
 using namespace vectors;
 
 SpaceLattice::Place SpaceLattice::round(Point3 p) const {
-  return {std::llround((p.x - zero.x) / unit), std::llround((p.y - zero.y) / unit), std::llround((p.z - zero.z) / unit)};
+  return {std::llround((p.x - zero.x) / unit), std::llround((p.y - zero.y) / unit),
+          std::llround((p.z - zero.z) / unit)};
 }
 
-std::vector<SpaceLattice::Place> fit_lines(const std::vector<Point3>& polyline, const SpaceLattice& lattice, double within) {
+std::vector<SpaceLattice::Place> fit_lines(const std::vector<Point3>& polyline, const SpaceLattice& lattice,
+                                           double within) {
   std::vector<SpaceLattice::Place> places{lattice.round(polyline.front())};
   const std::size_t last = polyline.size() - 1;
   for (std::size_t at = 0; at < last;) {

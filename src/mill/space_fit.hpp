@@ -19,8 +19,9 @@ struct SpaceLattice {
   }
 };
 
-/// Lattice points of a chain of lines along a polyline: every place of a line is within `within` (2 units at least) of a place of the
-/// polyline, in order. From each point the farthest is taken that is found by doubling and halving.
-std::vector<SpaceLattice::Place> fit_lines(const std::vector<Point3>& polyline, const SpaceLattice& lattice, double within);
+/// Lattice points of a chain of lines along a polyline: every place of a line is within `within` (2 units at least) of
+/// a place of the polyline, in order. From each point the farthest is taken that is found by doubling and halving.
+std::vector<SpaceLattice::Place> fit_lines(const std::vector<Point3>& polyline, const SpaceLattice& lattice,
+                                           double within);
 
 }  // namespace krepl::mill

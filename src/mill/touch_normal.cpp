@@ -11,7 +11,8 @@ Point3 touch_normal(const Terrain& terrain, Terrain::Index feature, Point3 p) {
   const Point3 a = corners.point[0];
   Point3 normal = p - a;
   switch (terrain.feature_kind(feature)) {
-    case Terrain::FeatureKind::vertex: break;
+    case Terrain::FeatureKind::vertex:
+      break;
     case Terrain::FeatureKind::edge: {
       const Point3 d = corners.point[1] - a;
       normal = normal - (dot(normal, d) / dot(d, d)) * d;

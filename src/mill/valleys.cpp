@@ -55,13 +55,13 @@ class EdgeCurves {
     const Point3 middle = surface_.curve(e, 3)[1];
     const Terrain& terrain = surface_.terrain();
     if (edge.kind == Surface::EdgeKind::valley)
-      return angle_between(touch_normal(terrain, edge.feature[0], middle), touch_normal(terrain, edge.feature[1], middle)) >=
-             o_.angle;
+      return angle_between(touch_normal(terrain, edge.feature[0], middle),
+                           touch_normal(terrain, edge.feature[1], middle)) >= o_.angle;
     const Index upper = edge.feature[0] == Surface::none ? edge.feature[1] : edge.feature[0];
     const DropCutter::Contact below = foot_.at({middle.x, middle.y});
     if (upper == Surface::none || !below.touches()) return false;
-    return angle_between(Point3{middle.x, middle.y, below.height} - below.point, touch_normal(terrain, upper, middle)) >=
-           o_.angle;
+    return angle_between(Point3{middle.x, middle.y, below.height} - below.point,
+                         touch_normal(terrain, upper, middle)) >= o_.angle;
   }
   /// From the rim down to where the ball rests at the wall's foot. False if there is nothing.
   bool lower(std::vector<Point3>& points) const {

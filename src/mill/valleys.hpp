@@ -21,8 +21,8 @@ struct Valleys {
   std::size_t too_short = 0;  ///< chains left out
 };
 
-/// Valleys of a surface, and the feet of its walls: below a rim the ball rests on the lower side at a height that `foot`, of a
-/// slightly smaller ball, tells, as that does not touch the wall. False if cancelled.
+/// Valleys of a surface, and the feet of its walls: below a rim the ball rests on the lower side at a height that
+/// `foot`, of a slightly smaller ball, tells, as that does not touch the wall. False if cancelled.
 bool find_valleys(const Surface& surface, const DropCutter& foot, const ValleyOptions& options, const Context& context,
                   Valleys& valleys);
 

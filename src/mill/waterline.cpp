@@ -129,16 +129,14 @@ Result<MilledPath> mill_waterline(std::shared_ptr<const Terrain> part, const Wat
   for (std::size_t first = 0; first < heights->size(); first += levels_at_once) {
     const std::size_t last = std::min(heights->size(), first + levels_at_once);
     std::vector<double> levels;
-    for (std::size_t n = first; n < last; ++n)
-      levels.push_back(plan->z0 + double((*heights)[n]) * o.accuracy.unit);
+    for (std::size_t n = first; n < last; ++n) levels.push_back(plan->z0 + double((*heights)[n]) * o.accuracy.unit);
     ContourOptions ties;
     ties.ties_are_high = false;  // the ball may rest on level ground
     const auto contours = sections->contours(levels, ties, quiet);
     if (!contours) return contours.error();
     Levels found;
     for (std::size_t n = first; n < last; ++n)
-      for (LevelLine& line :
-           mill::level_lines((*contours)[n - first], *surface, along, at, report.skipped_cuts)) {
+      for (LevelLine& line : mill::level_lines((*contours)[n - first], *surface, along, at, report.skipped_cuts)) {
         report.curve_points += line.size();
         found.lines.push_back(std::move(line)), found.heights.push_back((*heights)[n]);
       }
@@ -156,13 +154,14 @@ Result<MilledPath> mill_waterline(std::shared_ptr<const Terrain> part, const Wat
   }
   std::erase_if(cuts, [](const Cut& c) { return c.moves.empty(); });
   if (cuts.empty())
-    return Error{ErrorCode::input, "there is no place to cut on any level", "", "use a smaller step down or steep angle"};
+    return Error{ErrorCode::input, "there is no place to cut on any level", "",
+                 "use a smaller step down or steep angle"};
   report.levels = heights->size(), report.passes = report.cuts = cuts.size();
   const double clearance = o.motion.clearance >= 0 ? o.motion.clearance : o.tool.radius / 2;
   const double lowest = plan->z0 + double(heights->back()) * o.accuracy.unit;
   Result<ToolPath> path = mill::link_cuts(*cutter, std::move(cuts),
-                                          {plan->safe, clearance, o.motion.plunge_feed, o.motion.plunge_feed, o.tool.radius,
-                                           lowest, o.accuracy.unit, plan->tip},
+                                          {plan->safe, clearance, o.motion.plunge_feed, o.motion.plunge_feed,
+                                           o.tool.radius, lowest, o.accuracy.unit, plan->tip},
                                           context);
   if (!path) return path.error();
   milled.path = std::move(*path);

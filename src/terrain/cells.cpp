@@ -377,7 +377,7 @@ PointOf<Real> Cells<Real>::least_gap(const Box& box) const {
 
 /// The corner at which a patch's sides end that bound it at two turns in a row, if it lies close to p. Where the two
 /// are tangent, the patch is too thin to show for a stretch beyond its corner. The same if the patch's own wall runs in the
-/// foot of a higher one.
+/// foot of a higher one that passes the corner, too.
 template <class Real>
 std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
   const PatchSet<Real>& patches = envelope_.patches();
@@ -392,11 +392,12 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
   for (std::size_t i = 0; i < turns_.size(); ++i) {
     const Turn &from = turns_[i], &to = turns_[(i + 1) % turns_.size()];
     const Index patch = from.after;
-    if (patch == none) continue;
-    const auto side_of = [&](const Turn& t) {
-      return t.meeting == Meeting::rim && !is_wall_of(t, patch) ? envelope_.rim_at(patch, t.at) : side_along(t);
+    if (patch == none || from.before == to.after) continue;
+    const auto is_at_foot = [&](const Turn& t) { return t.meeting == Meeting::rim && !is_wall_of(t, patch); };
+    const auto own_side = [&](const Turn& t) {
+      return is_at_foot(t) ? envelope_.rim_at(patch, t.at) : side_along(t);
     };
-    const Bound *a = side_of(from), *b = side_of(to);
+    const Bound *a = own_side(from), *b = own_side(to);
     if (a == nullptr || b == nullptr || a == b) continue;
     for (const Point c : patches.corners(patch)) {
       const Real apart = norm(c.x - p.x, c.y - p.y);
@@ -404,7 +405,11 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
         const Gradient g = envelope_.bound_gradient(side, c);
         return absolute(side.value(c, patches.square_radius())) <= 4 * envelope_.tolerance() * (1 + norm(g.x, g.y));
       };
-      if (apart < least && ends(*a) && ends(*b)) least = apart, nearest = c;
+      const auto passes = [&](const Turn& t) {
+        const Bound* wall = is_at_foot(t) ? side_along(t) : nullptr;
+        return !is_at_foot(t) || (wall != nullptr && ends(*wall));
+      };
+      if (apart < least && ends(*a) && ends(*b) && passes(from) && passes(to)) least = apart, nearest = c;
     }
   }
   return nearest;

@@ -101,14 +101,19 @@ Point3 project_to_valley(const Terrain& terrain, double radius, const Surface::E
   return is_near(p) ? Point3(p) : near;
 }
 
-/// The circle along which an edge's cylinder meets the sphere about one of its ends, or another cylinder in line with it.
+/// The circle along which an edge's cylinder meets the sphere about one of its ends, or another cylinder in line with it: at
+/// the end of either that is nearest.
 Point3 on_end_circle(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 near) {
   const auto a = terrain.corners(edge.feature[0]), b = terrain.corners(edge.feature[1]);
   const auto& line = a.count == 2 ? a : b;
   const auto& other = a.count == 2 ? b : a;
-  Point3 center = other.point[0];
-  if (other.count == 2 && (other.point[1] == line.point[0] || other.point[1] == line.point[1])) center = other.point[1];
   const Vector3 d = unit(line.point[1] - line.point[0]);
+  Point3 center = other.point[0];
+  if (other.count == 2) {
+    const std::array<Point3, 4> ends{line.point[0], line.point[1], other.point[0], other.point[1]};
+    const auto along = [&](Point3 end) { return std::fabs(dot(near - end, d)); };
+    center = *std::min_element(ends.begin(), ends.end(), [&](Point3 p, Point3 q) { return along(p) < along(q); });
+  }
   const Vector3 v = near - center;
   return center + radius * unit(v + (-dot(v, d)) * d);
 }
@@ -135,6 +140,14 @@ Point3 on_rim(const Contact<double>& c, double radius, Point3 near) {
 }
 
 }  // namespace
+
+bool are_in_one_line(const Terrain& terrain, Surface::Index f, Surface::Index g) {
+  if (f == Surface::none || g == Surface::none) return false;
+  const Contact<double> a = contact_of(terrain, f), b = contact_of(terrain, g);
+  if (a.kind != FeatureKind::edge || b.kind != FeatureKind::edge) return false;
+  return length(cross(a.direction, b.direction)) <= parallel &&
+         length(cross(b.at - a.at, a.direction)) <= parallel * terrain.extent();
+}
 
 Curve curve_kind(const Terrain& terrain, const Surface::Edge& edge) {
   if (edge.feature[0] == Surface::none || edge.feature[1] == Surface::none) {

@@ -4,6 +4,9 @@
 
 namespace krepl::terrain {
 
+/// True if both features are edges in one line of space, so that their patches join smoothly wherever they meet.
+bool are_in_one_line(const Terrain& terrain, Surface::Index f, Surface::Index g);
+
 /// What kind of curve an edge of a surface is, from the features that the ball touches along it (engines.md, section 3).
 Surface::Curve curve_kind(const Terrain& terrain, const Surface::Edge& edge);
 

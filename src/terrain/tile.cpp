@@ -152,6 +152,9 @@ class ChainWriter {
       chain.lower = label[left] == upper_ ? 1 : 0;
       other = none;
     }
+    // Where edges overlap in one line, their patches are one cylinder, which the end of one of them divides.
+    if (chain.kind == Surface::EdgeKind::valley && are_in_one_line(terrain_, feature(upper_), feature(other)))
+      chain.kind = Surface::EdgeKind::seam;
     edge_ = {chain.kind, Surface::Curve::line, {feature(upper_), feature(other)}};
     chain.curve = edge_.curve = curve_kind(terrain_, edge_);
   }

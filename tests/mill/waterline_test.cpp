@@ -1,5 +1,5 @@
-// Waterlines and pencil passes by brute force: never in the part and its allowance, nowhere farther from it than the tolerance, and all around
-// it: places of the level set from another construction are near the path.
+// Waterlines and pencil passes by brute force: never in the part and its allowance, nowhere farther from it than the
+// tolerance, and all around it: places of the level set from another construction are near the path.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,19 +35,18 @@ double distance(Point p, Point3 a, Point3 b) {
 
 /// Cuts never come nearer than the radius, and nowhere farther than `outer`; `step` is the sampling.
 template <class Options>
-void expect_beside(const std::shared_ptr<const Terrain>& part, const Options& o, const MilledPath& milled,
-                   double step, const std::string& name) {
+void expect_beside(const std::shared_ptr<const Terrain>& part, const Options& o, const MilledPath& milled, double step,
+                   const std::string& name) {
   const double grown = o.tool.radius + o.tool.allowance, outer = grown + o.accuracy.tolerance;
   const double extent = std::max(part->extent(), grown);
   // Links have the plunge feed.
   const auto is_cut = [&](const Move& m) { return m.kind != MoveKind::rapid && m.feed == o.motion.feed; };
-  const PathCheck check =
-      check_path(*part, part, milled.path, grown, outer, -1e300, step, 10, is_cut);
+  const PathCheck check = check_path(*part, part, milled.path, grown, outer, -1e300, step, 10, is_cut);
   EXPECT_GT(check.places, 20u) << name;
-  EXPECT_LE(check.deepest, 1e-9 * extent) << name << " at " << check.deepest_at.x << " " << check.deepest_at.y << " "
-                                          << check.deepest_at.z;
-  EXPECT_LE(check.highest, 1e-9 * extent) << name << " at " << check.highest_at.x << " " << check.highest_at.y << " "
-                                          << check.highest_at.z;
+  EXPECT_LE(check.deepest, 1e-9 * extent)
+      << name << " at " << check.deepest_at.x << " " << check.deepest_at.y << " " << check.deepest_at.z;
+  EXPECT_LE(check.highest, 1e-9 * extent)
+      << name << " at " << check.highest_at.x << " " << check.highest_at.y << " " << check.highest_at.z;
   // Next to nearly vertical valleys a few moves are not proven.
   if constexpr (std::is_same_v<Options, PencilOptions>)
     EXPECT_LE(20 * milled.report.lifted_moves, std::max<std::size_t>(milled.report.lines, 60)) << name;
@@ -55,8 +54,8 @@ void expect_beside(const std::shared_ptr<const Terrain>& part, const Options& o,
     EXPECT_EQ(milled.report.lifted_moves, 0u) << name;
 }
 
-/// Places where a line across the part passes the level set of a ball's surface, found by halving, are within `near` of the path
-/// on that level.
+/// Places where a line across the part passes the level set of a ball's surface, found by halving, are within `near` of
+/// the path on that level.
 void expect_complete(const Terrain& part, const std::shared_ptr<const Terrain>& shared, const MilledPath& milled,
                      double feed, double radius, double near, const std::string& name) {
   const auto cutter = DropCutter::build(shared, radius);
@@ -148,10 +147,11 @@ TEST(Waterline, RunsAroundTheBlockWithinTheTolerance) {
     EXPECT_EQ(milled->report.arcs > 20, o.accuracy.arcs) << name;
     const double spacing = std::sqrt(8 * o.accuracy.tolerance * o.tool.radius);
     expect_beside(part, o, *milled, spacing / 10, name);
-    // On slopes of at least 1 in 5 a distance from the part is five times that in the plane; level ground is where places
-    // are not told.
+    // On slopes of at least 1 in 5 a distance from the part is five times that in the plane; level ground is where
+    // places are not told.
     const double grown = o.tool.radius + o.tool.allowance;
-    expect_complete(*part, part, *milled, o.motion.feed, grown + o.accuracy.tolerance / 2, 5.1 * o.accuracy.tolerance, name);
+    expect_complete(*part, part, *milled, o.motion.feed, grown + o.accuracy.tolerance / 2, 5.1 * o.accuracy.tolerance,
+                    name);
   }
 }
 
@@ -184,7 +184,9 @@ TEST(Waterline, TurnsTheWayAskedFor) {
       const double dx = m.end.x - from.x, dy = m.end.y - from.y, far = std::hypot(dx, dy);
       if (is_arc(m) || far < 0.5) continue;
       const auto height = [&](double aside) {
-        return cutter->at({(from.x + m.end.x) / 2 - origin.x - aside * dy / far, (from.y + m.end.y) / 2 - origin.y + aside * dx / far})
+        return cutter
+            ->at({(from.x + m.end.x) / 2 - origin.x - aside * dy / far,
+                  (from.y + m.end.y) / 2 - origin.y + aside * dx / far})
             .height;
       };
       if (height(0.05) == height(-0.05)) continue;
@@ -247,7 +249,8 @@ TEST(Pencil, RunsAlongTheBottomOfAGroove) {
     EXPECT_GE(m.end.z, 0.25 * m.end.y + above - 1e-9);
     EXPECT_LE(m.end.z, 0.25 * m.end.y + above + slack);
   }
-  for (const auto& [from, m] : level_moves(milled->path, o.motion.feed)) length += std::hypot(m.end.y - from.y, m.end.z - from.z);
+  for (const auto& [from, m] : level_moves(milled->path, o.motion.feed))
+    length += std::hypot(m.end.y - from.y, m.end.z - from.z);
   EXPECT_GT(length, 2.8);
 }
 
@@ -316,7 +319,8 @@ TEST(Waterline, IsBesideRandomTerrains) {
     PencilOptions v;
     v.tool = o.tool;
     if (const auto valleys = mill_pencil(*part, v))
-      expect_beside(*part, v, *valleys, 0.05 * std::max(1.0, height / 4), "valleys of case " + std::to_string(k)), ++pencils;
+      expect_beside(*part, v, *valleys, 0.05 * std::max(1.0, height / 4), "valleys of case " + std::to_string(k)),
+          ++pencils;
     if (!milled) continue;  // flat, or nothing above the lowest level
     ++paths;
     expect_beside(*part, o, *milled, 0.05 * std::max(1.0, height / 4), "case " + std::to_string(k));
