@@ -35,8 +35,8 @@ _krepl() {
       return ;;
     --zones) mapfile -t COMPREPLY < <(compgen -W "sub-river stem whole" -- "$current"); return ;;
     --outlet) mapfile -t COMPREPLY < <(compgen -W "guess" -- "$current"); return ;;
-    --strategy) mapfile -t COMPREPLY < <(compgen -W "parallel rough" -- "$current"); return ;;
-    --direction) mapfile -t COMPREPLY < <(compgen -W "zigzag one-way" -- "$current"); return ;;
+    --strategy) mapfile -t COMPREPLY < <(compgen -W "parallel rough waterline pencil" -- "$current"); return ;;
+    --direction) mapfile -t COMPREPLY < <(compgen -W "zigzag one-way climb conventional" -- "$current"); return ;;
     --post) mapfile -t COMPREPLY < <(compgen -W "linuxcnc grbl" -- "$current"); return ;;
     --control-point) mapfile -t COMPREPLY < <(compgen -W "tip centre" -- "$current"); return ;;
     --tool) mapfile -t COMPREPLY < <(compgen -W "ball: flat: bull: cone: taper:" -- "$current"); return ;;

@@ -20,19 +20,23 @@ namespace {
 
 struct MillVerbOptions {
   TerrainOptions terrain;
-  std::string output, tool, strategy = "parallel", direction = "zigzag", post = "linuxcnc", unit = "mm",
+  std::string output, tool, strategy = "parallel", direction, post = "linuxcnc", unit = "mm",
                             control_point = "tip";
-  std::string step_down, ramp_angle, stock_top, stock_margin;
+  std::string step_down, ramp_angle, stock_top, stock_margin, steep, valley_angle, shortest;
   std::string step_over, scallop, tolerance, allowance, angle, bottom, safe_height, clearance, feed, plunge_feed,
       spindle;
   int decimals = -1, tool_number = 1;
   bool no_arcs = false;
 };
 
+enum class Strategy { parallel, rough, waterline, pencil };
+
 struct MillPlan {
+  Strategy strategy = Strategy::parallel;
   ParallelOptions parallel;  ///< of other strategies what they share with it
   RoughOptions rough;
-  bool is_rough = false;
+  WaterlineOptions waterline;
+  PencilOptions pencil;
   output::GcodeOptions gcode;
   input::TerrainRequest request;
 };
@@ -119,21 +123,34 @@ Status take_motion(const MillVerbOptions& o, MillPlan& plan) {
 }
 
 /// An option that has no meaning for the strategy would be ignored in silence.
-Status check_meaning(const MillVerbOptions& o, bool rough) {
-  const auto refuse = [&](const char* option, const char* strategy) {
-    return usage(fmt::format("{} has no meaning for strategy {}", option, o.strategy),
-                 fmt::format("it belongs to {}", strategy));
+Status check_meaning(const MillVerbOptions& o, Strategy strategy) {
+  struct Meaning {
+    const char* option;
+    const std::string& text;
+    bool has_meaning;
+    const char* strategies;
   };
-  for (const auto& [option, text] : {std::pair{"--step-down", &o.step_down},
-                                     {"--ramp-angle", &o.ramp_angle},
-                                     {"--stock-top", &o.stock_top},
-                                     {"--stock-margin", &o.stock_margin}})
-    if (!rough && !text->empty()) return refuse(option, "rough");
-  if (!rough) return std::monostate{};
-  if (!o.scallop.empty()) return refuse("--scallop", "parallel");
-  if (o.direction != "zigzag") return refuse("--direction", "parallel");
-  if (o.step_over.empty()) return usage("--step-over is not given", "give the distance of passes");
-  if (o.step_down.empty()) return usage("--step-down is not given", "give the distance of levels");
+  const bool parallel = strategy == Strategy::parallel, rough = strategy == Strategy::rough,
+             waterline = strategy == Strategy::waterline, pencil = strategy == Strategy::pencil;
+  const Meaning meanings[] = {{"--step-over", o.step_over, parallel || rough, "parallel, rough"},
+                              {"--scallop", o.scallop, parallel, "parallel"},
+                              {"--angle", o.angle, parallel || rough, "parallel, rough"},
+                              {"--direction", o.direction, parallel || waterline, "parallel, waterline"},
+                              {"--step-down", o.step_down, rough || waterline, "rough, waterline"},
+                              {"--steep", o.steep, waterline, "waterline"},
+                              {"--valley-angle", o.valley_angle, pencil, "pencil"},
+                              {"--shortest", o.shortest, pencil, "pencil"},
+                              {"--bottom", o.bottom, !pencil, "parallel, rough, waterline"},
+                              {"--ramp-angle", o.ramp_angle, rough, "rough"},
+                              {"--stock-top", o.stock_top, rough, "rough"},
+                              {"--stock-margin", o.stock_margin, rough, "rough"}};
+  for (const Meaning& m : meanings)
+    if (!m.has_meaning && !m.text.empty())
+      return usage(fmt::format("{} has no meaning for strategy {}", m.option, o.strategy),
+                   fmt::format("it belongs to {}", m.strategies));
+  if (rough && o.step_over.empty()) return usage("--step-over is not given", "give the distance of passes");
+  if ((rough || waterline) && o.step_down.empty())
+    return usage("--step-down is not given", "give the distance of levels");
   return std::monostate{};
 }
 
@@ -151,11 +168,22 @@ Status take_rough(const MillVerbOptions& o, MillPlan& plan) {
   return std::monostate{};
 }
 
+Status take_waterline(const MillVerbOptions& o, MillPlan& plan) {
+  const ParallelOptions& p = plan.parallel;
+  WaterlineOptions& w = plan.waterline;
+  w.tool = p.tool, w.accuracy = p.accuracy, w.motion = p.motion, w.bottom = p.bottom;
+  if (Status s = take("--step-down", o.step_down, w.step_down); !s) return s;
+  if (Status s = take("--steep", o.steep, w.steep); !s) return s;
+  if (o.direction.empty()) return std::monostate{};
+  return choose("--direction", o.direction, {{"climb", true}, {"conventional", false}}, w.climb);
+}
+
 Status take_passes(const MillVerbOptions& o, MillPlan& plan) {
   ParallelOptions& p = plan.parallel;
   if (Status s = take("--step-over", o.step_over, p.step_over); !s) return s;
   if (Status s = take("--scallop", o.scallop, p.scallop); !s) return s;
-  if (p.step_over == 0 && p.scallop == 0)
+  const bool has_passes = plan.strategy == Strategy::parallel || plan.strategy == Strategy::rough;
+  if (has_passes && p.step_over == 0 && p.scallop == 0)
     return usage("neither --step-over nor --scallop is given", "give one of them");
   if (p.step_over != 0 && p.scallop != 0) return usage("both --step-over and --scallop are given", "give one of them");
   if (Status s = take("--angle", o.angle, p.angle, false); !s) return s;
@@ -163,19 +191,37 @@ Status take_passes(const MillVerbOptions& o, MillPlan& plan) {
   double bottom = 0;
   if (Status s = take("--bottom", o.bottom, bottom, false); !s) return s;
   if (!o.bottom.empty()) p.bottom = bottom;
+  if (plan.strategy != Strategy::parallel || o.direction.empty()) return std::monostate{};
   return choose("--direction", o.direction, {{"zigzag", true}, {"one-way", false}}, p.zigzag);
+}
+
+Status take_pencil(const MillVerbOptions& o, MillPlan& plan) {
+  const ParallelOptions& p = plan.parallel;
+  PencilOptions& v = plan.pencil;
+  v.tool = p.tool, v.accuracy = p.accuracy, v.motion = p.motion;
+  if (Status s = take("--valley-angle", o.valley_angle, v.valley_angle, false); !s) return s;
+  return take("--shortest", o.shortest, v.shortest);
 }
 
 Result<MillPlan> make_plan(const MillVerbOptions& o) {
   MillPlan plan;
-  if (Status s = choose("--strategy", o.strategy, {{"parallel", false}, {"rough", true}}, plan.is_rough); !s)
+  if (Status s = choose("--strategy", o.strategy,
+                        {{"parallel", Strategy::parallel}, {"rough", Strategy::rough}, {"waterline", Strategy::waterline},
+                         {"pencil", Strategy::pencil}},
+                        plan.strategy);
+      !s)
     return s.error();
-  if (Status s = check_meaning(o, plan.is_rough); !s) return s.error();
+  if (Status s = check_meaning(o, plan.strategy); !s) return s.error();
   if (Status s = take_tool(o.tool, plan); !s) return s.error();
   if (Status s = take_post(o, plan); !s) return s.error();
   if (Status s = take_motion(o, plan); !s) return s.error();
   if (Status s = take_passes(o, plan); !s) return s.error();
-  if (Status s = take_rough(o, plan); !s) return s.error();
+  if (plan.strategy == Strategy::rough)
+    if (Status s = take_rough(o, plan); !s) return s.error();
+  if (plan.strategy == Strategy::waterline)
+    if (Status s = take_waterline(o, plan); !s) return s.error();
+  if (plan.strategy == Strategy::pencil)
+    if (Status s = take_pencil(o, plan); !s) return s.error();
   plan.gcode.tool_number = o.tool_number;
   plan.gcode.strategy = o.strategy;
   const Result<input::TerrainRequest> request = terrain_request(o.terrain);
@@ -185,7 +231,17 @@ Result<MillPlan> make_plan(const MillVerbOptions& o) {
   return plan;
 }
 
-void tell(const MillReport& r, std::size_t lines, const MillVerbOptions& o, const Stopwatch& total, Session& session) {
+void tell_strategy(const MillReport& r, Strategy strategy, Session& session) {
+  if (strategy == Strategy::waterline || strategy == Strategy::pencil) {
+    if (strategy == Strategy::waterline)
+      session.detail(fmt::format("levels     {}; {} lines, {} points along them, {} rings are too small", r.levels,
+                                 r.passes, r.curve_points, r.skipped_cuts));
+    else
+      session.detail(fmt::format("valleys    {}, {} points along them, {} are too short", r.passes, r.curve_points,
+                                 r.skipped_cuts));
+    session.detail(fmt::format("proofs     {} moves are not proven free and taken over what is in their way", r.lifted_moves));
+    return;
+  }
   session.detail(fmt::format("curves     {} points above them, {} bodies looked at", r.curve_points, r.touches));
   session.detail(fmt::format("passes     {}, {:.6g} apart, at {:.6g} degrees", r.passes, r.step_over, r.angle));
   if (r.levels > 0)
@@ -194,6 +250,11 @@ void tell(const MillReport& r, std::size_t lines, const MillVerbOptions& o, cons
     session.detail(
         fmt::format("scallops   {} sections looked at, {} pieces of passes added, {} sections where more is left",
                     r.sections, r.extra_passes, r.uneven_sections));
+}
+
+void tell(const MillReport& r, Strategy strategy, std::size_t lines, const MillVerbOptions& o, const Stopwatch& total,
+          Session& session) {
+  tell_strategy(r, strategy, session);
   session.summary(
       fmt::format(
           "{} cuts: {} lines, {} arcs, {} rapid moves; {:.6g} {} cut, {:.6g} {} rapid, about {:.1f} min; {} lines of "
@@ -201,6 +262,16 @@ void tell(const MillReport& r, std::size_t lines, const MillVerbOptions& o, cons
           r.cuts, r.lines, r.arcs, r.rapids, r.cutting_length, o.unit, r.rapid_length, o.unit, r.minutes, lines,
           total.seconds()),
       o.output == "-");
+}
+
+Result<MilledPath> mill_part(const std::shared_ptr<const Terrain>& part, const MillPlan& plan, const Context& context) {
+  switch (plan.strategy) {
+    case Strategy::rough: return mill_rough(part, plan.rough, context);
+    case Strategy::waterline: return mill_waterline(part, plan.waterline, context);
+    case Strategy::pencil: return mill_pencil(part, plan.pencil, context);
+    case Strategy::parallel: break;
+  }
+  return mill_parallel(part, plan.parallel, context);
 }
 
 int run_mill(const MillVerbOptions& options, Session& session) {
@@ -214,29 +285,29 @@ int run_mill(const MillVerbOptions& options, Session& session) {
   tell_terrain(*file, options.terrain.name(), total.seconds(), session);
   const Stopwatch computing;
   const Context context = session.context("milling");
-  const Result<MilledPath> milled = plan->is_rough ? mill_rough(file->terrain, plan->rough, context)
-                                                   : mill_parallel(file->terrain, plan->parallel, context);
+  const Result<MilledPath> milled = mill_part(file->terrain, *plan, context);
   if (!milled)
     return session.fail(milled.error().code == ErrorCode::usage ? "" : options.terrain.name(), milled.error());
   session.detail(fmt::format("path       {:.3f} s", computing.seconds()));
   const Result<std::size_t> lines =
       output::write_gcode(options.output, milled->path, plan->gcode, session.context("writing"));
   if (!lines) return session.fail(output_name(options.output), lines.error());
-  tell(milled->report, *lines, options, total, session);
+  tell(milled->report, plan->strategy, *lines, options, total, session);
   return 0;
 }
 
 void add_path_options(CLI::App& verb, MillVerbOptions& o) {
   verb.add_option("--tool", o.tool, "Cutter: ball:DIAMETER")->required()->type_name("KIND:SIZE");
   verb.add_option("--strategy", o.strategy,
-                  "parallel (default): passes in vertical planes; rough: out of a block, level by level")
+                  "parallel (default): passes in vertical planes; rough: out of a block, level by level; waterline: around the "
+                  "part, level by level; pencil: along the valleys and the feet of walls")
       ->type_name("NAME");
   verb.add_option("--step-over", o.step_over, "Distance of passes")->type_name("LENGTH");
   verb.add_option("--scallop", o.scallop, "Instead of it: greatest height of what is left between passes")
       ->type_name("LENGTH");
   verb.add_option("--angle", o.angle, "Direction of passes, degrees from the x axis (default: 0)")
       ->type_name("DEGREES");
-  verb.add_option("--direction", o.direction, "zigzag (default) or one-way")->type_name("NAME");
+  verb.add_option("--direction", o.direction, "parallel: zigzag (default) or one-way; waterline: climb (default) or conventional")->type_name("NAME");
   verb.add_option("--tolerance", o.tolerance,
                   "Greatest distance of the path above the exact one; it is never below (default: 0.01 mm, 0.0004 in)")
       ->type_name("LENGTH");
@@ -244,7 +315,14 @@ void add_path_options(CLI::App& verb, MillVerbOptions& o) {
   verb.add_option("--bottom", o.bottom,
                   "Lowest Z of the tip; passes go there beside the part (default: the part's lowest place)")
       ->type_name("Z");
-  verb.add_option("--step-down", o.step_down, "rough: greatest distance of levels")->type_name("LENGTH");
+  verb.add_option("--step-down", o.step_down, "rough, waterline: greatest distance of levels")->type_name("LENGTH");
+  verb.add_option("--steep", o.steep, "waterline: only where the surface is at least so steep (default: everywhere)")
+      ->type_name("DEGREES");
+  verb.add_option("--valley-angle", o.valley_angle,
+                  "pencil: least angle between the normals of a valley's sides (default: 20)")
+      ->type_name("DEGREES");
+  verb.add_option("--shortest", o.shortest, "pencil: valleys shorter than that are left out (default: the tool's radius)")
+      ->type_name("LENGTH");
   verb.add_option("--ramp-angle", o.ramp_angle, "rough: steepest way down into the stock (default: 3)")
       ->type_name("DEGREES");
   verb.add_option("--stock-top", o.stock_top, "rough: top of the block (default: the part's)")->type_name("Z");

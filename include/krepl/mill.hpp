@@ -31,7 +31,7 @@ struct MillAccuracy {
   double tolerance = 0.01;  ///< at least 16 units
   double unit = 1e-4;       ///< last decimal of the numbers; at least 2^-34 S, S the largest of extent and radius
   ControlPoint control_point = ControlPoint::tip;  ///< of which Z is a multiple of the unit
-  bool arcs = true;                                ///< arcs in planes along x or y
+  bool arcs = true;                                ///< arcs in planes along x or y, of waterlines in level ones
   /// How far inside of its arcs a controller's chords may be; arcs stay so far above the surface (GRBL: 0.002 mm).
   double arc_error = 0;
 };
@@ -71,8 +71,10 @@ struct MillReport {
   double minutes = 0;               ///< without accelerations
   std::size_t curve_points = 0;     ///< of the polylines above the drive curves that moves were fitted to
   std::uint64_t touches = 0;        ///< evaluations of a triangle's sum with the ball
-  std::size_t levels = 0;           ///< of roughing
-  std::size_t skipped_cuts = 0;     ///< of roughing: stretches of passes too short to be entered
+  std::size_t levels = 0;           ///< of roughing and waterlines
+  std::size_t skipped_cuts = 0;     ///< of roughing: stretches of passes too short to be entered; of waterlines: rings as
+                                    ///< small as a unit; of pencil passes: short valleys
+  std::size_t lifted_moves = 0;     ///< of waterlines and pencil passes: moves not proven free, taken over what is in their way
   double step_over = 0;             ///< used
   std::size_t extra_passes = 0;     ///< parts of passes between others, for the sake of the scallop
   std::size_t sections = 0;         ///< across the passes, looked at for that
@@ -125,5 +127,49 @@ struct RoughOptions {
 /// Errors: as mill_parallel; a step down or ramp angle out of its range.
 Result<MilledPath> mill_rough(std::shared_ptr<const Terrain> part, const RoughOptions& options,
                               const Context& context = {});
+
+struct WaterlineOptions {
+  MillTool tool;
+  MillAccuracy accuracy;
+  MillMotion motion;
+  double step_down = 0;  ///< greatest distance of levels
+  bool climb = true;     ///< the part is on the right of the way, else on its left
+  double steep = 0;      ///< only where the surface is at least so steep, degrees from level, below 90; 0: everywhere
+  /// Lowest height of the tip. Nothing given: the part's lowest place, on which the ball rests then.
+  std::optional<double> bottom;
+};
+
+/// Waterlines: on evenly spaced levels, from the part's top down, the tool goes around the part (grown by the allowance)
+/// along the exact contours of the surface of its centre, rings from outside to inside, as lines and arcs in level planes.
+///
+/// The contours are those of a ball larger by about half the tolerance, and the path is fitted within the other half of it on both
+/// sides: distances from the part change by no more than what a path is away from a curve. Each move is then proven free by
+/// bounds on the height of the surface below it, which know nothing of contours; one that is not is taken over what is in its
+/// way and counted. Level ground at the height of a level counts as free: the ball may rest on it. Links are those of
+/// mill_parallel. The same path for any number of threads.
+///
+/// Errors: as mill_parallel and compute_surface; a step down or steep angle out of its range; nothing to cut on any level.
+/// Time: that of the surface and of the contours, and some 20 us a move.
+Result<MilledPath> mill_waterline(std::shared_ptr<const Terrain> part, const WaterlineOptions& options,
+                                  const Context& context = {});
+
+struct PencilOptions {
+  MillTool tool;
+  MillAccuracy accuracy;
+  MillMotion motion;
+  double valley_angle = 20;  ///< only valleys where the two sides' normals differ by as much, degrees, 0 to below 180
+  double shortest = -1;      ///< chains of valleys shorter than that are left out; negative: the tool's radius
+};
+
+/// Pencil passes: along the valleys of the surface of the ball's centre (of the part grown by the allowance), where the ball touches
+/// the part in two places, and along the feet of vertical walls, where the surface jumps.
+///
+/// They are edges of the exact surface's subdivision, joined at its vertices to chains, where several meet the straightest two. Lines in
+/// space are fitted to them, and each is proven free, as those of mill_waterline. Each chain is run from the end nearer to where the tool is,
+/// the nearest chain first (of more than 4,000, in the order of the subdivision). The same path for any number of threads.
+///
+/// Errors: as mill_parallel and compute_surface; an angle out of its range; no such valley.
+Result<MilledPath> mill_pencil(std::shared_ptr<const Terrain> part, const PencilOptions& options,
+                               const Context& context = {});
 
 }  // namespace krepl

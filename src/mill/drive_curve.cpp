@@ -264,6 +264,10 @@ void DriveCurve::trace(const Line& line, double from, double to, bool over_air, 
 }
 
 double DriveCurve::highest(const Line& line, double from, double to) {
+  return std::max(highest_above(line, from, to, 0), options_.floor);
+}
+
+double DriveCurve::highest_above(const Line& line, double from, double to, double slope) {
   double top = lowest, length = bodies_.stretch();
   CurveRun run;
   for (double t = from; t < to;) {
@@ -276,11 +280,11 @@ double DriveCurve::highest(const Line& line, double from, double to) {
     run.clear();
     out_ = &run;
     trace_stretch(t, end);
-    for (const CurvePoint& p : run) top = std::max(top, p.z);
+    for (const CurvePoint& p : run) top = std::max(top, p.z - slope * p.t);
     t = end;
     length = std::min(length * 1.25, 16 * bodies_.stretch());
   }
-  return std::max(top, options_.floor);
+  return top;
 }
 
 }  // namespace krepl::mill

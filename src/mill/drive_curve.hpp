@@ -34,6 +34,9 @@ class DriveCurve {
   void trace(const Line& line, double from, double to, bool over_air, std::vector<CurveRun>& runs);
   /// The highest point of the curve between from and to, at most the accuracy above it.
   double highest(const Line& line, double from, double to);
+  /// The most by which the curve is above a line that is `slope` t high at t, at most the accuracy more; where the curve
+  /// is at the floor, by which that is.
+  double highest_above(const Line& line, double from, double to, double slope);
 
   std::uint64_t touches() const { return touches_; }
 

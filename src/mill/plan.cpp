@@ -82,6 +82,24 @@ Result<Plan> make_plan(const Terrain& part, const ParallelOptions& o) {
   return plan;
 }
 
+Result<Plan> make_plan(const Terrain& part, const MillTool& tool, const MillAccuracy& accuracy, const MillMotion& motion,
+                       std::optional<double> bottom) {
+  ParallelOptions o;
+  o.tool = tool, o.accuracy = accuracy, o.motion = motion, o.bottom = bottom;
+  o.step_over = part.extent() + 8 * accuracy.unit;  // there are no passes
+  return make_plan(part, o);
+}
+
+Band make_band(const Plan& plan, const MillAccuracy& a) {
+  const double room = a.tolerance - 2 * a.unit - 2 * a.arc_error;  // at least 14 units
+  Band band;
+  band.sagitta = room / 16, band.proof_accuracy = room / 8;
+  band.within = (room - band.sagitta - band.proof_accuracy) / 2;
+  band.proof_radius = plan.radius + a.arc_error + band.sagitta;
+  band.curve_radius = band.proof_radius + band.proof_accuracy + band.within;
+  return band;
+}
+
 void measure(const ToolPath& path, const MillMotion& motion, MillReport& report) {
   Point3 at = path.start;
   for (const Move& m : path.moves) {

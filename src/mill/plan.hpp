@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "krepl/mill.hpp"
@@ -18,12 +19,29 @@ struct Plan {
   double step_over;
 };
 
+/// How the tolerance is shared out for paths that are fitted to curves of the surface of a somewhat larger ball.
+///
+/// Whatever moves by a length comes nearer to the part, or farther from it, by that length at most. So a path within e of a curve
+/// on the surface of a ball of radius r keeps between r - e and r + e from the part.
+struct Band {
+  double curve_radius;    // of the ball on whose surface the curves lie
+  double within;          // of the path from the curve
+  double proof_radius;    // of the ball for which moves are proven free: arcs by chords, a controller's or ours
+  double proof_accuracy;  // how far above the true height bounds may be
+  double sagitta;         // of chords for the proof
+};
+Band make_band(const Plan& plan, const MillAccuracy& accuracy);
+
 /// An Error of code usage.
 Error usage(const std::string& what, const std::string& remedy);
 bool is_positive(double x);
 
 /// Checks the options, all but step_down and the like of other strategies.
 Result<Plan> make_plan(const Terrain& part, const ParallelOptions& options);
+
+/// Checks what strategies without parallel passes share.
+Result<Plan> make_plan(const Terrain& part, const MillTool& tool, const MillAccuracy& accuracy, const MillMotion& motion,
+                       std::optional<double> bottom);
 
 /// Adds counts and lengths of a path.
 void measure(const ToolPath& path, const MillMotion& motion, MillReport& report);

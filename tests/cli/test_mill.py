@@ -150,6 +150,32 @@ class Mill(support.CliTest):
         for z in levels:
             self.assertGreaterEqual(z, 0.3)
 
+    def test_waterlines(self):
+        options = ("--tool", "ball:3", "--strategy", "waterline", "--step-down", "0.5")
+        done = self.succeed("mill", "part.off", "out.ngc", *options, "--verbose")
+        self.assertIn("0 moves are not proven free", done.stdout + done.stderr)
+        moves = interpret(self.text("out.ngc"))
+        arcs = [m for m in moves if m[0] in (2, 3)]
+        self.assertGreater(len(arcs), 5)
+        for _, plane, start, end, centre in arcs:
+            self.assertEqual(plane, "G17")
+            self.assertEqual(start[2], end[2])
+            self.assertLess(abs(math.dist(start[:2], centre[:2]) - math.dist(end[:2], centre[:2])), 2e-4)
+        for motion, _, _, (x, y, z), _ in moves[::5]:
+            for tri in triangles():
+                self.assertGreaterEqual(nearest((x, y, z + 1.5), tri), 1.5 - 1e-9)
+        self.succeed("verify", "out.ngc", "--against", "part.off", "--tool", "ball:3")
+        steep = self.succeed("mill", "part.off", "steep.ngc", *options, "--steep", "80", "--direction", "conventional")
+        self.assertLess(len(self.text("steep.ngc")), len(self.text("out.ngc")), steep.stdout)
+
+    def test_pencil(self):
+        done = self.succeed("mill", "part.off", "out.ngc", "--tool", "ball:1", "--strategy", "pencil", "--verbose")
+        self.assertIn("0 moves are not proven free", done.stdout + done.stderr)
+        for motion, _, _, (x, y, z), _ in interpret(self.text("out.ngc")):
+            for tri in triangles():
+                self.assertGreaterEqual(nearest((x, y, z + 0.5), tri), 0.5 - 1e-9)
+        self.succeed("verify", "out.ngc", "--against", "part.off", "--tool", "ball:1")
+
     def test_standard_output(self):
         done = self.succeed("mill", "part.off", "-", *OPTIONS)
         self.assertTrue(done.stdout.startswith("(part.off, parallel by krepl)\n"))
@@ -186,7 +212,7 @@ class Messages(support.CliTest):
         self.refuse("neither --step-over nor --scallop is given; give one of them")
         self.refuse("both --step-over and --scallop are given; give one of them", *step, "--scallop", "0.1")
         self.refuse("paths of tool 'flat:3' are not made, only those of ball-nose cutters; give --tool ball:DIAMETER", *step, tool=("--tool", "flat:3"))
-        self.refuse("--strategy 'spiral' is unknown; give one of parallel, rough", *step, "--strategy", "spiral")
+        self.refuse("--strategy 'spiral' is unknown; give one of parallel, rough, waterline, pencil", *step, "--strategy", "spiral")
         self.refuse("--post 'fanuc' is unknown; give one of linuxcnc, grbl", *step, "--post", "fanuc")
         self.refuse("--angle 'north' is not a finite number; give one", *step, "--angle", "north")
         self.refuse("the safe height 2 is below the highest place of the tool over the part; use at least 4.0002", *step,
@@ -197,8 +223,13 @@ class Messages(support.CliTest):
 
     def test_options_of_other_strategies(self):
         step = ("--step-over", "1")
-        self.refuse("--step-down has no meaning for strategy parallel; it belongs to rough", *step, "--step-down", "1")
+        self.refuse("--step-down has no meaning for strategy parallel; it belongs to rough, waterline", *step, "--step-down", "1")
         self.refuse("--scallop has no meaning for strategy rough; it belongs to parallel", "--scallop", "1", "--strategy", "rough")
+        self.refuse("--step-over has no meaning for strategy waterline; it belongs to parallel, rough", *step, "--strategy", "waterline")
+        self.refuse("--direction 'zigzag' is unknown; give one of climb, conventional", "--strategy", "waterline", "--step-down", "1", "--direction", "zigzag")
+        self.refuse("the valleys' angle is not between 0 and 180 degrees", "--strategy", "pencil", "--valley-angle", "180")
+        self.refuse("--bottom has no meaning for strategy pencil; it belongs to parallel, rough, waterline", "--strategy", "pencil", "--bottom", "1")
+        self.refuse("the steep angle is not between 0 and 90 degrees", "--strategy", "waterline", "--step-down", "1", "--steep", "90")
         self.refuse("--step-down is not given; give the distance of levels", *step, "--strategy", "rough")
 
     def test_bad_input(self):

@@ -85,7 +85,10 @@ double worst_difference(const ToolPath& path, double below_centre, const std::ve
       continue;
     }
     // Ends, centre, sense, and the coordinate along the axis.
-    if (m.plane == ArcPlane::zx) {
+    if (m.plane == ArcPlane::xy) {
+      look(c.numbers[0], end.x), look(c.numbers[1], end.y), look(c.numbers[2], centre.x), look(c.numbers[3], centre.y);
+      look(c.numbers[5], end.z);
+    } else if (m.plane == ArcPlane::zx) {
       look(c.numbers[0], end.z), look(c.numbers[1], end.x), look(c.numbers[2], centre.z), look(c.numbers[3], centre.x);
       look(c.numbers[5], end.y);
     } else {
@@ -169,6 +172,15 @@ TEST_F(Programs, AreWhatTheInterpreterDoes) {
   output::GcodeOptions gcode;
   gcode.below_centre = 1.5;
   expect_read(roughed->path, gcode);
+  WaterlineOptions around;
+  around.tool.radius = 1.5, around.step_down = 0.4;
+  for (const bool chords : {false, true}) {
+    if (chords) around.accuracy.arc_error = 0.002, gcode.post = output::GcodePost::grbl;
+    const auto waterlines = mill_waterline(std::make_shared<const Terrain>(*block), around);
+    ASSERT_TRUE(waterlines) << waterlines.error().text();
+    EXPECT_GT(waterlines->report.arcs, 10u);
+    expect_read(waterlines->path, gcode);
+  }
   EXPECT_GT(arcs_, 50u);
   EXPECT_GT(moves_, 1000u);
 }

@@ -72,6 +72,45 @@ TEST_P(RealParts, AreNotCutInto) {
   }
 }
 
+TEST_P(RealParts, AreNotCutIntoByWaterlines) {
+  const auto data = data_directory();
+  if (!data || !std::filesystem::exists(*data / GetParam().file)) GTEST_SKIP() << "no real data: set KREPL_DATA";
+  input::TerrainRequest request;
+  request.path = (*data / GetParam().file).string();
+  const auto file = input::read_terrain(request);
+  ASSERT_TRUE(file) << file.error().text();
+  // A surface of 100,000 cells takes longer than all parts together.
+  if (file->terrain->is_grid() || std::string(GetParam().file).find("mount_rush") != std::string::npos) GTEST_SKIP();
+  const Terrain& part = *file->terrain;
+  const double side = std::max(part.highest().x - part.lowest().x, part.highest().y - part.lowest().y);
+  WaterlineOptions o;
+  o.tool.radius = side * GetParam().radius;
+  o.accuracy.unit = std::pow(10.0, std::round(std::log10(side * 1e-6)));
+  o.accuracy.tolerance = 100 * o.accuracy.unit;
+  o.step_down = (part.highest().z - part.lowest().z) / (5.5 * effort());
+  const auto milled = mill_waterline(file->terrain, o);
+  ASSERT_TRUE(milled) << milled.error().text();
+  const double spacing = std::sqrt(8 * o.accuracy.tolerance * o.tool.radius), feed = o.motion.feed;
+  const double extent = std::max(part.extent(), o.tool.radius);
+  const PathCheck check = check_path(part, file->terrain, milled->path, o.tool.radius, o.tool.radius + o.accuracy.tolerance,
+                                     -1e300, spacing / 10, 10, [feed](const Move& m) { return m.feed == feed; });
+  PencilOptions v;
+  v.tool = o.tool, v.accuracy = o.accuracy;
+  if (const auto valleys = mill_pencil(file->terrain, v)) {
+    const PathCheck beside = check_path(part, file->terrain, valleys->path, o.tool.radius, o.tool.radius + o.accuracy.tolerance,
+                                        -1e300, spacing / 10, 10, [feed](const Move& m) { return m.feed == feed; });
+    EXPECT_EQ(valleys->report.lifted_moves, 0u) << "pencil";
+    EXPECT_LE(beside.deepest, 1e-9 * extent) << "pencil, at " << beside.deepest_at.x << " " << beside.deepest_at.y;
+    EXPECT_LE(beside.highest, 1e-9 * extent) << "pencil, at " << beside.highest_at.x << " " << beside.highest_at.y;
+  } else {
+    EXPECT_NE(valleys.error().text().find("no valley"), std::string::npos) << valleys.error().text();
+  }
+  EXPECT_GT(check.places, 100u);
+  EXPECT_EQ(milled->report.lifted_moves, 0u);
+  EXPECT_LE(check.deepest, 1e-9 * extent) << "at " << check.deepest_at.x << " " << check.deepest_at.y;
+  EXPECT_LE(check.highest, 1e-9 * extent) << "at " << check.highest_at.x << " " << check.highest_at.y << " " << check.highest_at.z;
+}
+
 INSTANTIATE_TEST_SUITE_P(Mesh, RealParts, testing::ValuesIn(real_parts));
 
 }  // namespace

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+
+#include "mill/ball_bodies.hpp"
+#include "mill/drive_curve.hpp"
+#include "mill/links.hpp"
+#include "mill/plan.hpp"
+
+namespace krepl::mill {
+
+/// Proves moves free by bounds of the surface's height below them, however they came about. One for each thread.
+class FreeMoves {
+ public:
+  /// `cutter`: of band.proof_radius.
+  FreeMoves(const DropCutter& cutter, const Band& band, const Plan& plan, double unit)
+      : cutter_(cutter), bodies_(cutter), band_(band), plan_(plan), unit_(unit) {}
+
+  /// Takes moves that are not proven free, lines and arcs in level planes, over what is in their way: up, level, down.
+  /// Returns how many.
+  std::size_t settle(Cut& cut);
+
+ private:
+  bool is_free(Point3 from, const Move& move);
+  bool is_free_line(Point3 from, Point3 to);
+  double highest(Point3 from, Point3 to, double slope, double floor, double accuracy);
+  double round_up(double z) const;
+  Point3 raised(Point3 p) const;
+  double top_over(Point3 from, const Move& move);
+
+  const DropCutter& cutter_;
+  BallBodies bodies_;
+  const Band& band_;
+  const Plan& plan_;
+  double unit_, floor_ = 0, accuracy_ = 0;
+  std::optional<DriveCurve> curve_;
+};
+
+/// Points of a level arc from `from`, the radius changing evenly, so that it is within `sagitta` of the chords between
+/// them.
+void append_chords(Point3 from, const Move& arc, double sagitta, std::vector<Point3>& points);
+
+}  // namespace krepl::mill

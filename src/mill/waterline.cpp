@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "kernel/parallel.hpp"
+#include "krepl/drop_cutter.hpp"
+#include "krepl/mill.hpp"
+#include "krepl/section.hpp"
+#include "mill/flat_fit.hpp"
+#include "mill/free_moves.hpp"
+#include "mill/level_lines.hpp"
+#include "mill/links.hpp"
+#include "mill/plan.hpp"
+#include "model/radius_check.hpp"
+
+namespace krepl {
+namespace {
+
+using mill::Band;
+using mill::Cut;
+using mill::FlatMove;
+using mill::FlatPoint;
+using mill::LevelLine;
+using mill::Plan;
+
+constexpr std::size_t levels_at_once = 64;
+
+Status check(const WaterlineOptions& o) {
+  if (!mill::is_positive(o.step_down))
+    return mill::usage("the step down is not a finite number greater than zero", "give one in the unit of the part");
+  if (!(o.steep >= 0 && o.steep < 90)) return mill::usage("the steep angle is not between 0 and 90 degrees", "");
+  return std::monostate{};
+}
+
+/// Heights of levels in units, from below the top down.
+Result<std::vector<std::int64_t>> level_heights(const Terrain& part, const Plan& plan, const Band& band,
+                                                const WaterlineOptions& o) {
+  const double unit = o.accuracy.unit;
+  const auto top = std::int64_t(std::floor((part.highest().z + band.curve_radius - plan.z0) / unit));
+  // Without a bottom the ball rests on the lowest ground there.
+  const auto bottom = o.bottom ? std::int64_t(std::ceil((plan.floor - plan.z0) / unit))
+                               : std::int64_t(std::floor((part.lowest().z + band.curve_radius - plan.z0) / unit)) + 1;
+  if (bottom >= top) return mill::usage("the lowest level is not below the part's top", "");
+  const double count = std::ceil(double(top - bottom) * unit / o.step_down - 1e-9);
+  if (count > 100000) return mill::usage("the step down means more than 100,000 levels", "use a larger one");
+  std::vector<std::int64_t> heights;
+  for (double n = 1; n <= count; ++n)
+    heights.push_back(top - std::int64_t(std::llround(double(top - bottom) * n / count)));
+  return heights;
+}
+
+/// Polylines on levels, as cuts.
+class LevelCuts {
+ public:
+  LevelCuts(const Terrain& part, const Band& band, const Plan& plan, const WaterlineOptions& o) : plan_(plan), o_(o) {
+    fit_.lattice = {o.accuracy.unit, part.origin()};
+    fit_.within = band.within * 3 / 4;  // the rest is for the polyline
+    if (o.accuracy.arcs) fit_.most_radius = 64 * (plan.radius + part.extent());
+  }
+
+  Cut make(const LevelLine& line, std::int64_t k) const {
+    std::vector<FlatMove> moves;
+    const FlatPoint start = mill::FlatFit(line, fit_).run(moves);
+    Cut cut;
+    cut.start = place(start, k);
+    for (const FlatMove& m : moves) {
+      Move move{MoveKind::line, ArcPlane::xy, place(m.end, k), {}, o_.motion.feed};
+      if (m.turn != 0) {
+        move.kind = m.turn > 0 ? MoveKind::counter_clockwise : MoveKind::clockwise;
+        move.centre = place(m.centre, k);
+      }
+      cut.moves.push_back(move);
+    }
+    return cut;
+  }
+
+ private:
+  Point3 place(FlatPoint p, std::int64_t k) const {
+    const double unit = o_.accuracy.unit;
+    return {double(p.i) * unit, double(p.j) * unit, double(k) * unit + plan_.tip};
+  }
+
+  const Plan& plan_;
+  const WaterlineOptions& o_;
+  mill::FlatFitOptions fit_;
+};
+
+Error cancelled() { return {ErrorCode::cancelled, "cancelled", "", ""}; }
+
+/// The cuts of some levels, in order.
+struct Levels {
+  std::vector<LevelLine> lines;
+  std::vector<std::int64_t> heights;  // of each
+};
+
+}  // namespace
+
+Result<MilledPath> mill_waterline(std::shared_ptr<const Terrain> part, const WaterlineOptions& o,
+                                  const Context& context) {
+  if (Status checked = check(o); !checked) return checked.error();
+  const Result<Plan> plan = mill::make_plan(*part, o.tool, o.accuracy, o.motion, o.bottom);
+  if (!plan) return plan.error();
+  const Band band = mill::make_band(*plan, o.accuracy);
+  const auto heights = level_heights(*part, *plan, band, o);
+  if (!heights) return heights.error();
+  const Result<DropCutter> cutter = DropCutter::build(part, plan->radius, context);
+  if (!cutter) return cutter.error();
+  const Result<DropCutter> prover = cutter->with_radius(band.proof_radius);
+  if (!prover) return prover.error();
+  Result<Surface> made = compute_surface(part, {band.curve_radius}, context);
+  if (!made) return made.error();
+  const auto surface = std::make_shared<const Surface>(std::move(*made));
+  const Result<SurfaceCutter> sections = SurfaceCutter::build(surface, context);
+  if (!sections) return sections.error();
+
+  MilledPath milled;
+  MillReport& report = milled.report;
+  mill::LevelLineOptions along;
+  along.flatten = band.within / 8, along.smallest = o.accuracy.unit / 4, along.reversed = o.climb,
+  along.steep = o.steep * std::numbers::pi / 180;
+  const LevelCuts shape(*part, band, *plan, o);
+  std::vector<Cut> cuts;
+  Point at{part->lowest().x, part->lowest().y};
+  Context quiet;
+  quiet.threads = context.threads, quiet.cancel = context.cancel;
+  kernel::Progress progress(context, heights->size());
+  for (std::size_t first = 0; first < heights->size(); first += levels_at_once) {
+    const std::size_t last = std::min(heights->size(), first + levels_at_once);
+    std::vector<double> levels;
+    for (std::size_t n = first; n < last; ++n) levels.push_back(plan->z0 + double((*heights)[n]) * o.accuracy.unit);
+    ContourOptions ties;
+    ties.ties_are_high = false;  // the ball may rest on level ground
+    const auto contours = sections->contours(levels, ties, quiet);
+    if (!contours) return contours.error();
+    Levels found;
+    for (std::size_t n = first; n < last; ++n)
+      for (LevelLine& line : mill::level_lines((*contours)[n - first], *surface, along, at, report.skipped_cuts)) {
+        report.curve_points += line.size();
+        found.lines.push_back(std::move(line)), found.heights.push_back((*heights)[n]);
+      }
+    const std::size_t begin = cuts.size();
+    cuts.resize(begin + found.lines.size());
+    std::vector<std::size_t> lifted(found.lines.size());
+    const bool done = kernel::parallel_blocks(quiet, found.lines.size(), 1, [&](std::size_t k, std::size_t) {
+      mill::FreeMoves free(*prover, band, *plan, o.accuracy.unit);
+      cuts[begin + k] = shape.make(found.lines[k], found.heights[k]);
+      lifted[k] = free.settle(cuts[begin + k]);
+    });
+    if (!done) return cancelled();
+    for (const std::size_t n : lifted) report.lifted_moves += n;
+    progress.add(last - first);
+  }
+  std::erase_if(cuts, [](const Cut& c) { return c.moves.empty(); });
+  if (cuts.empty())
+    return Error{ErrorCode::input, "there is no place to cut on any level", "",
+                 "use a smaller step down or steep angle"};
+  report.levels = heights->size(), report.passes = report.cuts = cuts.size();
+  const double clearance = o.motion.clearance >= 0 ? o.motion.clearance : o.tool.radius / 2;
+  const double lowest = plan->z0 + double(heights->back()) * o.accuracy.unit;
+  Result<ToolPath> path = mill::link_cuts(*cutter, std::move(cuts),
+                                          {plan->safe, clearance, o.motion.plunge_feed, o.motion.plunge_feed,
+                                           o.tool.radius, lowest, o.accuracy.unit, plan->tip},
+                                          context);
+  if (!path) return path.error();
+  milled.path = std::move(*path);
+  mill::measure(milled.path, o.motion, report);
+  return milled;
+}
+
+}  // namespace krepl
