@@ -72,8 +72,11 @@ bool Cells<Real>::is_thin(Index patch, Index a, Index b, const Box& box, Real wi
       sum.nx = s * f.nx + t * g.nx;
       sum.ny = s * f.ny + t * g.ny;
       sum.c = s * f.c + t * g.c;
-      const Real slope = std::min(absolute(f.c), absolute(g.c)) * steepness - 1;
-      if (envelope_.bound_range(sum, box).low >= -width * std::clamp<Real>(slope, 1, 64)) return true;
+      const Real least = std::min(absolute(f.c), absolute(g.c)), slope = least * steepness - 1;
+      const Real deepest = envelope_.bound_range(sum, box).low;
+      if (deepest >= -width * std::clamp<Real>(slope, 1, 64)) return true;
+      // Steeper still, what is thin in the plane has to be so on the surface, too: their functions are c times as steep.
+      if (slope > 64 && deepest >= -width * slope && deepest >= -envelope_.thickness() * least) return true;
     }
   }
   return false;
