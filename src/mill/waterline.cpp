@@ -129,7 +129,7 @@ class WaterlineCuts {
     const bool done = kernel::parallel_blocks(context, lines.size(), 1, [&](std::size_t k, std::size_t) {
       mill::FreeMoves free(prover_, band_, plan_, o_.accuracy.unit);
       cuts[begin + k] = shape_.make(lines[k], line_heights[k]);
-      lifted[k] = free.settle(cuts[begin + k]);
+      lifted[k] = free.settle(cuts[begin + k], o_.motion.plunge_feed);
     });
     if (!done) return cancelled();
     for (const std::size_t n : lifted) report_.lifted_moves += n;
