@@ -324,7 +324,9 @@ bool Union::set_labels(Arc& arc) const {
   if (arc.lower != 2)
     arc.kind = EdgeKind::rim;
   else
-    arc.kind = length(contact[0] - contact[1]) <= 8 * near && parts_.share_corner(arc.label[0], arc.label[1])
+    arc.kind = length(contact[0] - contact[1]) <= 8 * near &&
+                       (parts_.share_corner(arc.label[0], arc.label[1]) ||
+                        parts_.are_in_one_line(arc.label[0], arc.label[1]))
                    ? EdgeKind::seam
                    : EdgeKind::valley;
   return true;

@@ -133,6 +133,14 @@ Vector Parts::contact(Index part, Vector c) const {
   return c - dot(c - t.corner[0], t.normal) * t.normal;
 }
 
+bool Parts::are_in_one_line(Index first, Index second) const {
+  constexpr Real parallel = 1e-12L;
+  if (parts_[first].kind != FeatureKind::edge || parts_[second].kind != FeatureKind::edge) return false;
+  const EdgePart &e = edge_of(first), &f = edge_of(second);
+  const Vector between = f.at - e.at;
+  return length(cross(e.direction, f.direction)) <= parallel && length(cross(between, e.direction)) <= parallel * length(between);
+}
+
 bool Parts::share_corner(Index first, Index second) const {
   const auto corners = [&](Index part) {
     const Part& p = parts_[part];

@@ -67,6 +67,8 @@ class Parts {
   Vector contact(Index part, Vector c) const;
   /// Both have a vertex of the terrain in common.
   bool share_corner(Index first, Index second) const;
+  /// True if both are edges in one line of space.
+  bool are_in_one_line(Index first, Index second) const;
   /// From a point to the triangle and everything straight below it, which is convex. A semi-krepl is what is nearer
   /// than R.
   Real prism_distance(Index triangle, Vector c) const;
