@@ -92,7 +92,7 @@ double FreeMoves::top_over(Point3 from, const Move& move) {
   return round_up(top);
 }
 
-std::size_t FreeMoves::settle(Cut& cut) {
+std::size_t FreeMoves::settle(Cut& cut, double lift_feed) {
   std::vector<Move> moves;
   std::size_t lifted = 0;
   cut.start = raised(cut.start);
@@ -106,7 +106,7 @@ std::size_t FreeMoves::settle(Cut& cut) {
     } else {
       ++lifted;
       const double top = top_over(at, m);
-      m.end.z = top;
+      m.end.z = top, m.feed = lift_feed;
       moves.push_back({MoveKind::line, ArcPlane::xy, {at.x, at.y, top}, {}, m.feed});
       moves.push_back(m);
       moves.push_back({MoveKind::line, ArcPlane::xy, end, {}, m.feed});

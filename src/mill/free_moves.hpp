@@ -16,9 +16,9 @@ class FreeMoves {
   FreeMoves(const DropCutter& cutter, const Band& band, const Plan& plan, double unit)
       : cutter_(cutter), bodies_(cutter), band_(band), plan_(plan), unit_(unit) {}
 
-  /// Takes moves that are not proven free, lines and arcs in level planes, over what is in their way: up, level, down.
+  /// At `lift_feed` takes moves that are not proven free, lines and arcs in level planes, over what is in their way: up, level, down.
   /// Returns how many.
-  std::size_t settle(Cut& cut);
+  std::size_t settle(Cut& cut, double lift_feed);
 
  private:
   bool is_free(Point3 from, const Move& move);

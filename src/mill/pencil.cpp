@@ -93,7 +93,7 @@ Result<std::vector<Cut>> cut_valleys(const std::shared_ptr<const Terrain>& part,
     mill::FreeMoves free(*prover, band, plan, unit);
     // A quarter is for the polyline, and for the smaller ball at the feet of walls.
     cuts[k] = make_cut(valleys.chains[k], lattice, band.within * 3 / 4, plan, o.motion.feed);
-    lifted[k] = free.settle(cuts[k]);
+    lifted[k] = free.settle(cuts[k], o.motion.plunge_feed);
     progress.add(1);
   });
   if (!done) return cancelled();

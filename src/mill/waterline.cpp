@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -89,11 +90,87 @@ class LevelCuts {
 
 Error cancelled() { return {ErrorCode::cancelled, "cancelled", "", ""}; }
 
-/// The cuts of some levels, in order.
-struct Levels {
-  std::vector<LevelLine> lines;
-  std::vector<std::int64_t> heights;  // of each
+/// Cuts along all contours, in order.
+class WaterlineCuts {
+ public:
+  WaterlineCuts(const DropCutter& prover, const SurfaceCutter& sections, const Band& band, const Plan& plan,
+                const WaterlineOptions& o, MillReport& report)
+      : prover_(prover),
+        sections_(sections),
+        band_(band),
+        plan_(plan),
+        o_(o),
+        report_(report),
+        shape_(prover.terrain(), band, plan, o),
+        at_{prover.terrain().lowest().x, prover.terrain().lowest().y} {
+    along_.flatten = band.within / 8, along_.smallest = o.accuracy.unit / 4, along_.reversed = o.climb,
+    along_.steep = o.steep * std::numbers::pi / 180;
+  }
+
+  /// Adds those of some levels.
+  Status add(std::span<const std::int64_t> heights, const Context& context) {
+    std::vector<double> levels;
+    for (const std::int64_t k : heights) levels.push_back(plan_.z0 + double(k) * o_.accuracy.unit);
+    ContourOptions ties;
+    ties.ties_are_high = false;  // the ball may rest on level ground
+    const auto contours = sections_.contours(levels, ties, context);
+    if (!contours) return contours.error();
+    std::vector<LevelLine> lines;
+    std::vector<std::int64_t> line_heights;
+    for (std::size_t n = 0; n < heights.size(); ++n)
+      for (LevelLine& line :
+           mill::level_lines((*contours)[n], sections_.surface(), along_, at_, report_.skipped_cuts)) {
+        report_.curve_points += line.size();
+        lines.push_back(std::move(line)), line_heights.push_back(heights[n]);
+      }
+    const std::size_t begin = cuts.size();
+    cuts.resize(begin + lines.size());
+    std::vector<std::size_t> lifted(lines.size());
+    const bool done = kernel::parallel_blocks(context, lines.size(), 1, [&](std::size_t k, std::size_t) {
+      mill::FreeMoves free(prover_, band_, plan_, o_.accuracy.unit);
+      cuts[begin + k] = shape_.make(lines[k], line_heights[k]);
+      lifted[k] = free.settle(cuts[begin + k], o_.motion.plunge_feed);
+    });
+    if (!done) return cancelled();
+    for (const std::size_t n : lifted) report_.lifted_moves += n;
+    return std::monostate{};
+  }
+
+  std::vector<Cut> cuts;
+
+ private:
+  const DropCutter& prover_;
+  const SurfaceCutter& sections_;
+  const Band& band_;
+  const Plan& plan_;
+  const WaterlineOptions& o_;
+  MillReport& report_;
+  LevelCuts shape_;
+  mill::LevelLineOptions along_;
+  Point at_;
 };
+
+Result<std::vector<Cut>> cut_levels(const std::shared_ptr<const Terrain>& part, const DropCutter& cutter,
+                                    std::span<const std::int64_t> heights, const Plan& plan, const Band& band,
+                                    const WaterlineOptions& o, MillReport& report, const Context& context) {
+  const Result<DropCutter> prover = cutter.with_radius(band.proof_radius);
+  if (!prover) return prover.error();
+  Result<Surface> surface = compute_surface(part, {band.curve_radius}, context);
+  if (!surface) return surface.error();
+  const auto sections = SurfaceCutter::build(std::make_shared<const Surface>(std::move(*surface)), context);
+  if (!sections) return sections.error();
+  WaterlineCuts waterlines(*prover, *sections, band, plan, o, report);
+  Context quiet;
+  quiet.threads = context.threads, quiet.cancel = context.cancel;
+  kernel::Progress progress(context, heights.size());
+  for (std::size_t first = 0; first < heights.size(); first += levels_at_once) {
+    const std::size_t count = std::min(levels_at_once, heights.size() - first);
+    if (Status added = waterlines.add(heights.subspan(first, count), quiet); !added) return added.error();
+    progress.add(count);
+  }
+  std::erase_if(waterlines.cuts, [](const Cut& c) { return c.moves.empty(); });
+  return std::move(waterlines.cuts);
+}
 
 }  // namespace
 
@@ -107,65 +184,23 @@ Result<MilledPath> mill_waterline(std::shared_ptr<const Terrain> part, const Wat
   if (!heights) return heights.error();
   const Result<DropCutter> cutter = DropCutter::build(part, plan->radius, context);
   if (!cutter) return cutter.error();
-  const Result<DropCutter> prover = cutter->with_radius(band.proof_radius);
-  if (!prover) return prover.error();
-  Result<Surface> made = compute_surface(part, {band.curve_radius}, context);
-  if (!made) return made.error();
-  const auto surface = std::make_shared<const Surface>(std::move(*made));
-  const Result<SurfaceCutter> sections = SurfaceCutter::build(surface, context);
-  if (!sections) return sections.error();
-
   MilledPath milled;
-  MillReport& report = milled.report;
-  mill::LevelLineOptions along;
-  along.flatten = band.within / 8, along.smallest = o.accuracy.unit / 4, along.reversed = o.climb,
-  along.steep = o.steep * std::numbers::pi / 180;
-  const LevelCuts shape(*part, band, *plan, o);
-  std::vector<Cut> cuts;
-  Point at{part->lowest().x, part->lowest().y};
-  Context quiet;
-  quiet.threads = context.threads, quiet.cancel = context.cancel;
-  kernel::Progress progress(context, heights->size());
-  for (std::size_t first = 0; first < heights->size(); first += levels_at_once) {
-    const std::size_t last = std::min(heights->size(), first + levels_at_once);
-    std::vector<double> levels;
-    for (std::size_t n = first; n < last; ++n) levels.push_back(plan->z0 + double((*heights)[n]) * o.accuracy.unit);
-    ContourOptions ties;
-    ties.ties_are_high = false;  // the ball may rest on level ground
-    const auto contours = sections->contours(levels, ties, quiet);
-    if (!contours) return contours.error();
-    Levels found;
-    for (std::size_t n = first; n < last; ++n)
-      for (LevelLine& line : mill::level_lines((*contours)[n - first], *surface, along, at, report.skipped_cuts)) {
-        report.curve_points += line.size();
-        found.lines.push_back(std::move(line)), found.heights.push_back((*heights)[n]);
-      }
-    const std::size_t begin = cuts.size();
-    cuts.resize(begin + found.lines.size());
-    std::vector<std::size_t> lifted(found.lines.size());
-    const bool done = kernel::parallel_blocks(quiet, found.lines.size(), 1, [&](std::size_t k, std::size_t) {
-      mill::FreeMoves free(*prover, band, *plan, o.accuracy.unit);
-      cuts[begin + k] = shape.make(found.lines[k], found.heights[k]);
-      lifted[k] = free.settle(cuts[begin + k]);
-    });
-    if (!done) return cancelled();
-    for (const std::size_t n : lifted) report.lifted_moves += n;
-    progress.add(last - first);
-  }
-  std::erase_if(cuts, [](const Cut& c) { return c.moves.empty(); });
-  if (cuts.empty())
+  Result<std::vector<Cut>> cuts = cut_levels(part, *cutter, *heights, *plan, band, o, milled.report, context);
+  if (!cuts) return cuts.error();
+  if (cuts->empty())
     return Error{ErrorCode::input, "there is no place to cut on any level", "",
                  "use a smaller step down or steep angle"};
-  report.levels = heights->size(), report.passes = report.cuts = cuts.size();
+  milled.report.levels = heights->size(), milled.report.passes = milled.report.cuts = cuts->size();
   const double clearance = o.motion.clearance >= 0 ? o.motion.clearance : o.tool.radius / 2;
   const double lowest = plan->z0 + double(heights->back()) * o.accuracy.unit;
-  Result<ToolPath> path = mill::link_cuts(*cutter, std::move(cuts),
+  // Links have the plunge feed: they come down to what is not yet cut.
+  Result<ToolPath> path = mill::link_cuts(*cutter, std::move(*cuts),
                                           {plan->safe, clearance, o.motion.plunge_feed, o.motion.plunge_feed,
                                            o.tool.radius, lowest, o.accuracy.unit, plan->tip},
                                           context);
   if (!path) return path.error();
   milled.path = std::move(*path);
-  mill::measure(milled.path, o.motion, report);
+  mill::measure(milled.path, o.motion, milled.report);
   return milled;
 }
 

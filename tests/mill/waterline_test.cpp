@@ -39,7 +39,7 @@ void expect_beside(const std::shared_ptr<const Terrain>& part, const Options& o,
                    const std::string& name) {
   const double grown = o.tool.radius + o.tool.allowance, outer = grown + o.accuracy.tolerance;
   const double extent = std::max(part->extent(), grown);
-  // Links have the plunge feed.
+  // Links, and moves over what is in the way, have the plunge feed.
   const auto is_cut = [&](const Move& m) { return m.kind != MoveKind::rapid && m.feed == o.motion.feed; };
   const PathCheck check = check_path(*part, part, milled.path, grown, outer, -1e300, step, 10, is_cut);
   EXPECT_GT(check.places, 20u) << name;
@@ -295,17 +295,22 @@ TEST(Waterline, IsTheSameForAnyNumberOfThreads) {
   const auto part = made_block();
   Context one, three;
   one.threads = 1, three.threads = 3;
-  const auto a = mill_waterline(part, options(1, 0.7), one), b = mill_waterline(part, options(1, 0.7), three);
-  ASSERT_TRUE(a && b);
-  ASSERT_EQ(a->path.moves.size(), b->path.moves.size());
-  for (std::size_t k = 0; k < a->path.moves.size(); ++k)
-    ASSERT_TRUE(a->path.moves[k].end == b->path.moves[k].end && a->path.moves[k].centre == b->path.moves[k].centre);
+  PencilOptions pencil;
+  pencil.tool.radius = 0.6;
+  const auto expect_same = [](const Result<MilledPath>& a, const Result<MilledPath>& b) {
+    ASSERT_TRUE(a && b);
+    ASSERT_EQ(a->path.moves.size(), b->path.moves.size());
+    for (std::size_t k = 0; k < a->path.moves.size(); ++k)
+      ASSERT_TRUE(a->path.moves[k].end == b->path.moves[k].end && a->path.moves[k].centre == b->path.moves[k].centre);
+  };
+  expect_same(mill_waterline(part, options(1, 0.7), one), mill_waterline(part, options(1, 0.7), three));
+  expect_same(mill_pencil(part, pencil, one), mill_pencil(part, pencil, three));
 }
 
 TEST(Waterline, IsBesideRandomTerrains) {
   std::mt19937 random(seed());
   std::size_t paths = 0, pencils = 0;
-  for (int k = 0; k < 36 * effort(); ++k) {
+  for (int k = 0; k < 24 * effort(); ++k) {
     std::vector<std::uint8_t> bytes(48);
     for (auto& b : bytes) b = std::uint8_t(random());
     SmallTerrain c = decode_small_terrain(SmallTerrainFamily(k % 6), bytes);
@@ -325,8 +330,8 @@ TEST(Waterline, IsBesideRandomTerrains) {
     ++paths;
     expect_beside(*part, o, *milled, 0.05 * std::max(1.0, height / 4), "case " + std::to_string(k));
   }
-  EXPECT_GT(paths, 20u);
-  EXPECT_GT(pencils, 10u);
+  EXPECT_GT(paths, 12u);
+  EXPECT_GT(pencils, 6u);
 }
 
 TEST(Waterline, ChecksItsOptions) {
