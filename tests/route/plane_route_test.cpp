@@ -265,7 +265,7 @@ TEST(PlaneRoute, RandomWidestAgainstAGrid) {
     }
     EXPECT_LE(before, axis->length + 1e-9 * scale);
   }
-  EXPECT_GT(found, 10);
+  EXPECT_GT(found, 10 * effort());
 }
 
 }  // namespace

@@ -257,7 +257,7 @@ TEST(TerrainRoute, RandomTerrainsAgainstVoxels) {
     EXPECT_LE(route->length, voxels * 1.05 + 0.5);
     EXPECT_GE(route->length, voxels / 1.13 - 1);
   }
-  EXPECT_GT(bent, 5);
+  EXPECT_GT(bent, 5 * effort());
 }
 
 }  // namespace
