@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernel/parallel.hpp"
 #include "kernel/vectors.hpp"
+#include "section/each_cut.hpp"
 #include "section/nesting.hpp"
 
 namespace krepl::section {
@@ -258,22 +258,7 @@ Result<Contour> SurfaceCutter::contour(double level, const ContourOptions& optio
 
 Result<std::vector<Contour>> SurfaceCutter::contours(std::span<const double> levels, const ContourOptions& options,
                                                      const Context& context) const {
-  std::vector<Contour> result(levels.size());
-  std::vector<std::optional<Error>> errors(levels.size());
-  kernel::Progress progress(context, levels.size());
-  const bool done = kernel::parallel_blocks(context, levels.size(), 1, [&](std::size_t i, std::size_t) {
-    Result<Contour> made = contour(levels[i], options);
-    if (made)
-      result[i] = std::move(*made);
-    else
-      errors[i] = made.error();
-    progress.add(1);
-  });
-  for (const auto& error : errors) {
-    if (error) return *error;
-  }
-  if (!done) return Error{ErrorCode::cancelled, "cancelled", "", ""};
-  return result;
+  return section::make_each<Contour>(levels.size(), context, [&](std::size_t i) { return contour(levels[i], options); });
 }
 
 }  // namespace krepl

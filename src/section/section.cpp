@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/parallel.hpp"
+#include "section/each_cut.hpp"
 #include "section/tracing.hpp"
 
 // Sections by vertical planes.
@@ -194,22 +194,8 @@ Result<Section> SurfaceCutter::section(Point from, Point to) const {
 }
 
 Result<std::vector<Section>> SurfaceCutter::sections(std::span<const Line> lines, const Context& context) const {
-  std::vector<Section> result(lines.size());
-  std::vector<std::optional<Error>> errors(lines.size());
-  kernel::Progress progress(context, lines.size());
-  const bool done = kernel::parallel_blocks(context, lines.size(), 1, [&](std::size_t i, std::size_t) {
-    Result<Section> made = section(lines[i].from, lines[i].to);
-    if (made)
-      result[i] = std::move(*made);
-    else
-      errors[i] = made.error();
-    progress.add(1);
-  });
-  for (const auto& error : errors) {
-    if (error) return *error;
-  }
-  if (!done) return Error{ErrorCode::cancelled, "cancelled", "", ""};
-  return result;
+  return section::make_each<Section>(lines.size(), context,
+                                     [&](std::size_t i) { return section(lines[i].from, lines[i].to); });
 }
 
 }  // namespace krepl
