@@ -96,4 +96,19 @@ Result<ToolPath> link_cuts(const DropCutter& cutter, std::vector<Cut>&& cuts, co
   return std::move(linker.path);
 }
 
+LinkOptions links_of(const Plan& plan, const MillTool& tool, const MillAccuracy& accuracy, const MillMotion& motion,
+                     double feed, double short_link) {
+  const double clearance = motion.clearance >= 0 ? motion.clearance : tool.radius / 2;
+  return {plan.safe, clearance, feed, motion.plunge_feed, short_link, plan.floor, accuracy.unit, plan.tip};
+}
+
+Result<MilledPath> finish_path(const DropCutter& cutter, std::vector<Cut>&& cuts, const LinkOptions& options,
+                               const MillMotion& motion, MilledPath milled, const Context& context) {
+  Result<ToolPath> path = link_cuts(cutter, std::move(cuts), options, context);
+  if (!path) return path.error();
+  milled.path = std::move(*path);
+  measure(milled.path, motion, milled.report);
+  return milled;
+}
+
 }  // namespace krepl::mill

@@ -6,6 +6,7 @@
 #include "krepl/drop_cutter.hpp"
 #include "krepl/mill.hpp"
 #include "mill/line_bodies.hpp"
+#include "mill/plan.hpp"
 
 namespace krepl::mill {
 
@@ -30,5 +31,13 @@ struct LinkOptions {
 /// highest place of the cutter's surface (proven by bounds) below them.
 Result<ToolPath> link_cuts(const DropCutter& cutter, std::vector<Cut>&& cuts, const LinkOptions& options,
                            const Context& context);
+
+/// How a strategy links its cuts: with the clearance that is asked for, else half the tool's radius; down to the plan's floor.
+LinkOptions links_of(const Plan& plan, const MillTool& tool, const MillAccuracy& accuracy, const MillMotion& motion,
+                     double feed, double short_link);
+
+/// link_cuts, as the path of `milled`, which has the report so far: counts and lengths are added.
+Result<MilledPath> finish_path(const DropCutter& cutter, std::vector<Cut>&& cuts, const LinkOptions& options,
+                               const MillMotion& motion, MilledPath milled, const Context& context);
 
 }  // namespace krepl::mill

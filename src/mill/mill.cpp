@@ -168,16 +168,10 @@ Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const Para
   if (cuts.empty()) return Error{ErrorCode::input, "there is no pass over the part", "", "use a smaller step-over"};
   milled.report.passes = results.size(), milled.report.cuts = cuts.size();
   milled.report.step_over = layout.step_over, milled.report.angle = layout.angle();
-  const double clearance = o.motion.clearance >= 0 ? o.motion.clearance : o.tool.radius / 2;
   const double short_link = o.zigzag ? 1.5 * plan.step_over : 0;
-  Result<ToolPath> path = mill::link_cuts(
-      *cutter, std::move(cuts),
-      {plan.safe, clearance, o.motion.feed, o.motion.plunge_feed, short_link, plan.floor, o.accuracy.unit, plan.tip},
-      context);
-  if (!path) return path.error();
-  milled.path = std::move(*path);
-  mill::measure(milled.path, o.motion, milled.report);
-  return milled;
+  return mill::finish_path(*cutter, std::move(cuts),
+                           mill::links_of(plan, o.tool, o.accuracy, o.motion, o.motion.feed, short_link), o.motion,
+                           std::move(milled), context);
 }
 
 }  // namespace krepl

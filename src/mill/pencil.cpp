@@ -118,15 +118,8 @@ Result<MilledPath> mill_pencil(std::shared_ptr<const Terrain> part, const Pencil
     return Error{ErrorCode::input, "the surface has no valley so sharp and long", "",
                  "use a smaller angle or length, or a smaller tool"};
   milled.report.passes = milled.report.cuts = cuts->size();
-  const double clearance = o.motion.clearance >= 0 ? o.motion.clearance : o.tool.radius / 2;
-  Result<ToolPath> path = mill::link_cuts(*cutter, std::move(*cuts),
-                                          {plan->safe, clearance, o.motion.plunge_feed, o.motion.plunge_feed,
-                                           o.tool.radius, plan->floor, o.accuracy.unit, plan->tip},
-                                          context);
-  if (!path) return path.error();
-  milled.path = std::move(*path);
-  mill::measure(milled.path, o.motion, milled.report);
-  return milled;
+  const auto links = mill::links_of(*plan, o.tool, o.accuracy, o.motion, o.motion.plunge_feed, o.tool.radius);
+  return mill::finish_path(*cutter, std::move(*cuts), links, o.motion, std::move(milled), context);
 }
 
 }  // namespace krepl

@@ -100,6 +100,15 @@ Band make_band(const Plan& plan, const MillAccuracy& a) {
   return band;
 }
 
+Result<std::vector<std::int64_t>> spread_levels(std::int64_t top, std::int64_t bottom, double unit, double step_down) {
+  const double count = std::max(1.0, std::ceil(double(top - bottom) * unit / step_down - 1e-9));
+  if (count > 100000) return usage("the step down means more than 100,000 levels", "use a larger one");
+  std::vector<std::int64_t> heights;
+  for (double n = 0; n <= count; ++n)
+    heights.push_back(top - std::int64_t(std::llround(double(top - bottom) * n / count)));
+  return heights;
+}
+
 void measure(const ToolPath& path, const MillMotion& motion, MillReport& report) {
   Point3 at = path.start;
   for (const Move& m : path.moves) {

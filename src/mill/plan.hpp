@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "krepl/mill.hpp"
 
@@ -42,6 +44,9 @@ Result<Plan> make_plan(const Terrain& part, const ParallelOptions& options);
 /// Checks what strategies without parallel passes share.
 Result<Plan> make_plan(const Terrain& part, const MillTool& tool, const MillAccuracy& accuracy, const MillMotion& motion,
                        std::optional<double> bottom);
+
+/// Heights of levels in units, evenly spaced, no farther apart than `step_down`, both ends included. bottom < top.
+Result<std::vector<std::int64_t>> spread_levels(std::int64_t top, std::int64_t bottom, double unit, double step_down);
 
 /// Adds counts and lengths of a path.
 void measure(const ToolPath& path, const MillMotion& motion, MillReport& report);

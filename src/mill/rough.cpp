@@ -213,12 +213,7 @@ Result<std::vector<std::int64_t>> level_heights(const Terrain& part, const Plan&
   const auto top = std::int64_t(std::ceil((top_of_stock + tip_to_control) / unit));
   const auto bottom = std::int64_t(std::ceil((plan.floor - plan.z0) / unit)) + 1;  // not below by rounding
   if (bottom >= top) return mill::usage("the lowest level is not below the stock's top", "");
-  const double count = std::ceil(double(top - bottom) * unit / o.step_down - 1e-9);
-  if (count > 100000) return mill::usage("the step down means more than 100,000 levels", "use a larger one");
-  std::vector<std::int64_t> heights;
-  for (double n = 0; n <= count; ++n)
-    heights.push_back(top - std::int64_t(std::llround(double(top - bottom) * n / count)));
-  return heights;
+  return mill::spread_levels(top, bottom, unit, o.step_down);
 }
 
 }  // namespace

@@ -44,11 +44,8 @@ Result<std::vector<std::int64_t>> level_heights(const Terrain& part, const Plan&
   const auto bottom = o.bottom ? std::int64_t(std::ceil((plan.floor - plan.z0) / unit))
                                : std::int64_t(std::floor((part.lowest().z + band.curve_radius - plan.z0) / unit)) + 1;
   if (bottom >= top) return mill::usage("the lowest level is not below the part's top", "");
-  const double count = std::ceil(double(top - bottom) * unit / o.step_down - 1e-9);
-  if (count > 100000) return mill::usage("the step down means more than 100,000 levels", "use a larger one");
-  std::vector<std::int64_t> heights;
-  for (double n = 1; n <= count; ++n)
-    heights.push_back(top - std::int64_t(std::llround(double(top - bottom) * n / count)));
+  auto heights = mill::spread_levels(top, bottom, unit, o.step_down);
+  if (heights) heights->erase(heights->begin());  // nothing is above the top
   return heights;
 }
 
@@ -191,17 +188,10 @@ Result<MilledPath> mill_waterline(std::shared_ptr<const Terrain> part, const Wat
     return Error{ErrorCode::input, "there is no place to cut on any level", "",
                  "use a smaller step down or steep angle"};
   milled.report.levels = heights->size(), milled.report.passes = milled.report.cuts = cuts->size();
-  const double clearance = o.motion.clearance >= 0 ? o.motion.clearance : o.tool.radius / 2;
-  const double lowest = plan->z0 + double(heights->back()) * o.accuracy.unit;
   // Links have the plunge feed: they come down to what is not yet cut.
-  Result<ToolPath> path = mill::link_cuts(*cutter, std::move(*cuts),
-                                          {plan->safe, clearance, o.motion.plunge_feed, o.motion.plunge_feed,
-                                           o.tool.radius, lowest, o.accuracy.unit, plan->tip},
-                                          context);
-  if (!path) return path.error();
-  milled.path = std::move(*path);
-  mill::measure(milled.path, o.motion, milled.report);
-  return milled;
+  auto links = mill::links_of(*plan, o.tool, o.accuracy, o.motion, o.motion.plunge_feed, o.tool.radius);
+  links.floor = plan->z0 + double(heights->back()) * o.accuracy.unit;
+  return mill::finish_path(*cutter, std::move(*cuts), links, o.motion, std::move(milled), context);
 }
 
 }  // namespace krepl
