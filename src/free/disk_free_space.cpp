@@ -9,6 +9,7 @@
 #include "kernel/box_tree.hpp"
 #include "kernel/packed_tree.hpp"
 #include "krepl/free_space.hpp"
+#include "model/isolated_vertices.hpp"
 #include "model/radius_check.hpp"
 #include "zone/polygon_locator.hpp"
 
@@ -38,7 +39,7 @@ Vector<double> nearest_of(const Box& b, Point c) {
 /// The segments and isolated vertices of a network. Coordinates are relative to its origin.
 class DiskFreeSpace::Index {
  public:
-  explicit Index(const Network& network) : network_(network), isolated_(isolated_vertices(network)), tree_(boxes()) {
+  explicit Index(const Network& network) : network_(network), isolated_(model::isolated_vertices(network)), tree_(boxes()) {
     if (network.has_polygons()) polygons_.emplace(network);
   }
 
@@ -64,7 +65,6 @@ class DiskFreeSpace::Index {
     const Item ends = item(i);
     return nearest_of_segment(seen<Real>(network_.vertices()[ends.a], c), seen<Real>(network_.vertices()[ends.b], c));
   }
-  static std::vector<std::uint32_t> isolated_vertices(const Network& network);
   std::vector<Box> boxes() const;
 
   /// Where an item is touched: its vertex, if it is near one.
@@ -82,15 +82,6 @@ class DiskFreeSpace::Index {
   kernel::PackedTree<Box> tree_;
   std::optional<zone::PolygonLocator> polygons_;
 };
-
-std::vector<std::uint32_t> DiskFreeSpace::Index::isolated_vertices(const Network& network) {
-  std::vector<bool> used(network.vertices().size(), false);
-  for (const auto& s : network.segments()) used[s.a] = used[s.b] = true;
-  std::vector<std::uint32_t> isolated;
-  for (std::uint32_t v = 0; v < used.size(); ++v)
-    if (!used[v]) isolated.push_back(v);
-  return isolated;
-}
 
 std::vector<Box> DiskFreeSpace::Index::boxes() const {
   std::vector<Box> boxes(network_.segments().size() + isolated_.size());

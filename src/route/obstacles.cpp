@@ -4,6 +4,8 @@
 #include <queue>
 #include <tuple>
 
+#include "model/isolated_vertices.hpp"
+
 namespace krepl::route {
 namespace {
 
@@ -61,15 +63,6 @@ double arc_distance(const ArcShape& arc, Point a, Point b) {
 
 }  // namespace
 
-std::vector<std::uint32_t> Obstacles::isolated_vertices(const Network& network) {
-  std::vector<bool> used(network.vertices().size(), false);
-  for (const auto& s : network.segments()) used[s.a] = used[s.b] = true;
-  std::vector<std::uint32_t> isolated;
-  for (std::uint32_t v = 0; v < used.size(); ++v)
-    if (!used[v]) isolated.push_back(v);
-  return isolated;
-}
-
 std::vector<Box> Obstacles::boxes() const {
   std::vector<Box> boxes(network_.segments().size() + isolated_.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -80,7 +73,7 @@ std::vector<Box> Obstacles::boxes() const {
 }
 
 Obstacles::Obstacles(const Network& network)
-    : network_(network), isolated_(isolated_vertices(network)), tree_(boxes()) {}
+    : network_(network), isolated_(model::isolated_vertices(network)), tree_(boxes()) {}
 
 Obstacles::Ends Obstacles::ends(std::size_t item) const {
   const auto vertices = network_.vertices();

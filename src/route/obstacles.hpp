@@ -48,7 +48,6 @@ class Obstacles {
     Point a, b;
   };
   Ends ends(std::size_t item) const;
-  static std::vector<std::uint32_t> isolated_vertices(const Network& network);
   std::vector<Box> boxes() const;
 
   const Network& network_;
