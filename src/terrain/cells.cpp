@@ -406,8 +406,9 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
         return absolute(side.value(c, patches.square_radius())) <= 4 * envelope_.tolerance() * (1 + norm(g.x, g.y));
       };
       const auto passes = [&](const Turn& t) {
-        const Bound* wall = is_at_foot(t) ? side_along(t) : nullptr;
-        return !is_at_foot(t) || (wall != nullptr && ends(*wall));
+        if (!is_at_foot(t)) return true;
+        const Bound* wall = side_along(t);
+        return wall != nullptr && ends(*wall);
       };
       if (apart < least && ends(*a) && ends(*b) && passes(from) && passes(to)) least = apart, nearest = c;
     }

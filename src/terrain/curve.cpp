@@ -142,9 +142,11 @@ Point3 on_rim(const Contact<double>& c, double radius, Point3 near) {
 }  // namespace
 
 bool are_in_one_line(const Terrain& terrain, Surface::Index f, Surface::Index g) {
-  if (f == Surface::none || g == Surface::none) return false;
+  const auto is_edge = [&](Surface::Index i) {
+    return i != Surface::none && terrain.feature_kind(i) == FeatureKind::edge;
+  };
+  if (!is_edge(f) || !is_edge(g)) return false;
   const Contact<double> a = contact_of(terrain, f), b = contact_of(terrain, g);
-  if (a.kind != FeatureKind::edge || b.kind != FeatureKind::edge) return false;
   return length(cross(a.direction, b.direction)) <= parallel &&
          length(cross(b.at - a.at, a.direction)) <= parallel * terrain.extent();
 }
