@@ -28,14 +28,14 @@ Geometry::Geometry(const Instance& instance, const Context& context)
       set_direction(l, d);
       direction_[s] = l.direction;
       direction_error_[s] = l.direction_error;
-      span_[s] = magnitude(d);
+      span_[s] = length(d);
     }
   });
 }
 
 template <class Real>
 void Geometry::set_direction(Line<Real>& l, Vector<Real> d) const {
-  const Real span = magnitude(d);
+  const Real span = length(d);
   l.direction = {d.x / span, d.y / span};
   l.direction_error = Real(8 * unit_roundoff<Real>) + 2 * difference_error(d) / span;
 }
@@ -75,7 +75,7 @@ Estimate<Real> Geometry::crosses(Index from, Index to) const {
   const Real r = radius<Real>();
   if (!is_side(from) && !is_side(to)) {
     const Vector<Real> d = difference<Real>(vertex_of(to), vertex_of(from));
-    return {2 * r - magnitude(d), 2 * difference_error(d) + Real(8 * unit_roundoff<Real>) * r};
+    return {2 * r - length(d), 2 * difference_error(d) + Real(8 * unit_roundoff<Real>) * r};
   }
   if (is_side(from) && is_side(to)) {
     const auto e = line<Real>(from), f = line<Real>(to);
@@ -149,7 +149,7 @@ template <class Real>
 Place<Real> Geometry::circle_and_circle(Index from, Index to) const {
   const Real r = radius<Real>();
   const Vector<Real> d = difference<Real>(vertex_of(to), vertex_of(from));
-  const Real span = magnitude(d), relative = difference_error(d) / span + Real(8 * unit_roundoff<Real>);
+  const Real span = length(d), relative = difference_error(d) / span + Real(8 * unit_roundoff<Real>);
   const Real c = span / (2 * r);
   const Real square = std::max<Real>((1 - c) * (1 + c), 0);
   const Real square_error = 4 * c * relative + Real(8 * unit_roundoff<Real>);

@@ -15,32 +15,7 @@ using zone::Index;
 using zone::Instance;
 using zone::none;
 template <class Real>
-using Vector = zone::Vector<Real>;
-
-template <class Real>
-Real dot(Vector<Real> a, Vector<Real> b) {
-  return a.x * b.x + a.y * b.y;
-}
-template <class Real>
-Real cross(Vector<Real> a, Vector<Real> b) {
-  return a.x * b.y - a.y * b.x;
-}
-template <class Real>
-Real magnitude(Vector<Real> v) {
-  return kernel::square_root(v.x * v.x + v.y * v.y);
-}
-template <class Real>
-Vector<Real> operator+(Vector<Real> a, Vector<Real> b) {
-  return {a.x + b.x, a.y + b.y};
-}
-template <class Real>
-Vector<Real> operator-(Vector<Real> a, Vector<Real> b) {
-  return {a.x - b.x, a.y - b.y};
-}
-template <class Real>
-Vector<Real> operator*(Real s, Vector<Real> a) {
-  return {s * a.x, s * a.y};
-}
+using Vector = zone::Vector<Real>;  // its arithmetic is found there
 
 /// A number, and a bound of its error.
 template <class Real>

@@ -20,7 +20,7 @@ Bisector::Bisector(const Network& network, const VoronoiDiagram::Edge& edge, Poi
     const Vector<double> focus = vector(vertices[edge.left.is_vertex ? edge.left.index : edge.right.index]);
     const auto s = network.segments()[side.index];
     const Vector<double> a = vector(vertices[s.a]), d = vector(vertices[s.b]) - a;
-    const double l = magnitude(d);
+    const double l = length(d);
     along_ = {d.x / l, d.y / l};
     up_ = side.side == 0 ? Vector<double>{along_.y, -along_.x} : Vector<double>{-along_.y, along_.x};
     height_ = dot(focus - a, up_);
@@ -28,13 +28,13 @@ Bisector::Bisector(const Network& network, const VoronoiDiagram::Edge& edge, Poi
   } else if (edge.left.is_vertex && edge.right.is_vertex) {
     two_vertices_ = true;
     const Vector<double> a = vector(vertices[edge.left.index]), b = vector(vertices[edge.right.index]);
-    const double l = magnitude(b - a);
+    const double l = length(b - a);
     height_ = l / 2;
     up_ = {(b.x - a.x) / l, (b.y - a.y) / l};
     along_ = {up_.y, -up_.x};
     origin_ = {(a.x + b.x) / 2, (a.y + b.y) / 2};
   } else {
-    const double l = magnitude(q - p);
+    const double l = length(q - p);
     origin_ = p;
     along_ = l > 0 ? Vector<double>{(q.x - p.x) / l, (q.y - p.y) / l} : Vector<double>{1, 0};
   }

@@ -25,7 +25,7 @@ template <class Real>
 Real lowest(const VertexCurve<Real>& curve, Real begin, Real end) {
   const Real along = curve.w.x, across = curve.w.y;
   if (along > 0 && begin * along < across && across < end * along) {
-    return curve.is_line ? curve.distance / 2 : magnitude(curve.at) / 2;
+    return curve.is_line ? curve.distance / 2 : length(curve.at) / 2;
   }
   return std::min(curve.height(begin), curve.height(end));
 }

@@ -27,7 +27,7 @@ Contact contact(const Sites& sites, Index element, const Place& at) {
     return {n, dot(n, v) - at.radius};
   }
   const Vector<quad> v = at.centre - in.moved(in.vertex_of(element));
-  const quad l = magnitude(v);
+  const quad l = length(v);
   return {{v.x / l, v.y / l}, l - at.radius};
 }
 

@@ -8,7 +8,7 @@ void SideCell<Real>::start(Index element) {
   ends_ = sites_.instance().ends(element);
   const Vector<Real> d = sites_.direction<Real>(element >> 1);
   u_ = (element & 1u) ? Vector<Real>{-d.x, -d.y} : d;
-  length_ = magnitude(sites_.template difference<Real>(ends_.to, ends_.from));
+  length_ = zone::length(sites_.template difference<Real>(ends_.to, ends_.from));
   uncertain_ = false;
   corner_[0] = corner_[1] = Curve();
   Curve horizon;

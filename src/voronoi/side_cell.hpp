@@ -49,7 +49,7 @@ Stretches<Real> nearer_point(const SideCurve<Real>& b, const SideCurve<Real>& a)
   const bool b_low = b.at.y != a.at.y ? b.at.y < a.at.y : b.label < a.label;
   const Vector<Real> p = b_low ? b.at : a.at, q = b_low ? a.at : b.at;
   const Vector<Real> d = q - p;
-  const Real root = kernel::square_root(p.y * q.y) * magnitude(d);
+  const Real root = kernel::square_root(p.y * q.y) * length(d);
   const Real half = p.y * d.x, last = -p.y * (q.y * d.y + d.x * d.x);
   const Real t = half > 0 ? -(half + root) : root - half;
   Real low = d.y > 0 ? t / d.y : (t < 0 ? -infinite<Real>() : infinite<Real>()), high = last / t;

@@ -17,32 +17,7 @@ using zone::Index;
 using zone::Instance;
 using zone::none;
 template <class Real>
-using Vector = zone::Vector<Real>;
-
-template <class Real>
-Real dot(Vector<Real> a, Vector<Real> b) {
-  return a.x * b.x + a.y * b.y;
-}
-template <class Real>
-Real cross(Vector<Real> a, Vector<Real> b) {
-  return a.x * b.y - a.y * b.x;
-}
-template <class Real>
-Real magnitude(Vector<Real> v) {
-  return kernel::square_root(v.x * v.x + v.y * v.y);
-}
-template <class Real>
-Vector<Real> operator-(Vector<Real> a, Vector<Real> b) {
-  return {a.x - b.x, a.y - b.y};
-}
-template <class Real>
-Vector<Real> operator+(Vector<Real> a, Vector<Real> b) {
-  return {a.x + b.x, a.y + b.y};
-}
-template <class Real>
-Vector<Real> operator*(Real s, Vector<Real> a) {
-  return {s * a.x, s * a.y};
-}
+using Vector = zone::Vector<Real>;  // its arithmetic is found there
 
 /// Faces end this far from their site, in extents of the network.
 inline constexpr double horizon_in_extents = 0x1p20;
@@ -94,7 +69,7 @@ class Sites {
   Vector<Real> unit(Index segment) const {
     const auto s = in_.site(segment);
     const Vector<Real> d = difference<Real>(s.b, s.a);
-    const Real l = magnitude(d);
+    const Real l = length(d);
     return {d.x / l, d.y / l};
   }
 

@@ -5,7 +5,7 @@ namespace {
 
 template <class Real>
 Vector<Real> unit(Vector<Real> v) {
-  const Real l = magnitude(v);
+  const Real l = length(v);
   return {v.x / l, v.y / l};
 }
 
@@ -130,7 +130,7 @@ void VertexCell<Real>::add_line(Index segment, Vector<Real> a, Vector<Real> b) {
   const Real to_a = dot(right, a), to_b = dot(right, b);
   const bool a_nearer = dot(a, a) < dot(b, b);
   const Real signed_distance = a_nearer ? to_a : to_b;
-  const Real nearest = std::min(dot(a, a), dot(b, b)), error = narrow<Real> * (magnitude(a) + magnitude(b));
+  const Real nearest = std::min(dot(a, a), dot(b, b)), error = narrow<Real> * (length(a) + length(b));
   if (kernel::absolute(signed_distance) <= error) {
     const bool beside = dot(a, d) <= 0 && dot(b, d) >= 0;
     if (beside || nearest <= 2 * error * Real(sites_.horizon())) uncertain_ = true;

@@ -115,7 +115,7 @@ class VertexCell {
   /// notice.
   bool is_uncertain() const { return uncertain_; }
   /// What counts as near, in a search: the length of a segment beside the vertex.
-  Real size() const { return beside_[0] == none ? Real(0) : magnitude(locate(beside_[0])); }
+  Real size() const { return beside_[0] == none ? Real(0) : length(locate(beside_[0])); }
   bool is_isolated() const { return !sites_.is_side(sector_.before); }
   Instance::Sector sector() const { return sector_; }
   int chart_count() const { return charts_; }

@@ -16,10 +16,6 @@ template <class Real>
 Vector<Real> left_of(Vector<Real> v) {
   return {-v.y, v.x};
 }
-template <class Real>
-Real dot(Vector<Real> v, Vector<Real> w) {
-  return v.x * w.x + v.y * w.y;
-}
 /// k m + s t
 template <class Real>
 Vector<Real> combine(Real k, Vector<Real> m, Real s, Vector<Real> t) {

@@ -15,10 +15,6 @@ using kernel::square_root;
 
 namespace {
 
-template <class Real>
-Real dot(Vector<Real> v, Vector<Real> w) {
-  return v.x * w.x + v.y * w.y;
-}
 
 /// Where the circle crosses the cigar's border.
 template <class Real>

@@ -20,6 +20,26 @@ struct Vector {
   Real x, y;
 };
 template <class Real>
+Real dot(Vector<Real> a, Vector<Real> b) {
+  return a.x * b.x + a.y * b.y;
+}
+template <class Real>
+Real cross(Vector<Real> a, Vector<Real> b) {
+  return a.x * b.y - a.y * b.x;
+}
+template <class Real>
+Vector<Real> operator+(Vector<Real> a, Vector<Real> b) {
+  return {a.x + b.x, a.y + b.y};
+}
+template <class Real>
+Vector<Real> operator-(Vector<Real> a, Vector<Real> b) {
+  return {a.x - b.x, a.y - b.y};
+}
+template <class Real>
+Vector<Real> operator*(Real s, Vector<Real> a) {
+  return {s * a.x, s * a.y};
+}
+template <class Real>
 Real length(Vector<Real> v) {
   return kernel::square_root(v.x * v.x + v.y * v.y);
 }
