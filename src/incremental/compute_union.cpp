@@ -300,7 +300,10 @@ bool Union::set_labels(Arc& arc) const {
   const Real scale = tolerance_.scale;
   arc.label = labels_beside(arc, 0x1p-30L * scale);
   if (!is_about(arc.label, arc) || arc.curve->own[1] == none) {
-    for (const Real share : {0x1p-42L, 0x1p-36L, 0x1p-24L, 0x1p-18L}) {
+    // Two rims that cross at an angle of 1e-5, one a bit below the other: beside a short arc only the nearest place tells.
+    const bool is_short = arc.reach < 0x1p-24L * scale;
+    for (const Real share : {0x1p-46L, 0x1p-42L, 0x1p-36L, 0x1p-24L, 0x1p-18L}) {
+      if (share == 0x1p-46L && !is_short) continue;
       const auto labels = labels_beside(arc, share * scale);
       if (!is_about(labels, arc)) continue;
       arc.label = labels;

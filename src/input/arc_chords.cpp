@@ -5,14 +5,14 @@
 #include <numbers>
 #include <utility>
 
+#include "kernel/vectors.hpp"
+
 namespace krepl::input {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Point minus(Point p, Point q) { return {p.x - q.x, p.y - q.y}; }
-double cross(Point p, Point q) { return p.x * q.y - p.y * q.x; }
-double dot(Point p, Point q) { return p.x * q.x + p.y * q.y; }
+using namespace vectors;
 Point turned(Point d, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {d.x * c - d.y * s, d.x * s + d.y * c};
@@ -38,7 +38,7 @@ std::optional<ArcChords> ArcChords::through(Point start, Point middle, Point end
   arc.last_ = end;
   // Half the arc is what the angle at the middle point lacks to 180 degrees (inscribed angles): exact for flat arcs
   // too.
-  const Point u = minus(middle, start), v = minus(end, middle), chord = minus(end, start);
+  const Point u = middle - start, v = end - middle, chord = end - start;
   const double turn = cross(u, v);
   if (turn == 0) return std::nullopt;
   arc.left_turn_ = turn > 0;
@@ -68,12 +68,12 @@ double ArcChords::deviation(double count) const {
 Point ArcChords::at(double fraction) const {
   const double sense = left_turn_ ? 1 : -1;
   if (angle_ > pi) {
-    const Point d = turned(minus(first_, center_), sense * fraction * angle_);
+    const Point d = turned(first_ - center_, sense * fraction * angle_);
     const double scale = radius_ / std::hypot(d.x, d.y);
     return {center_.x + d.x * scale, center_.y + d.y * scale};
   }
   const double ratio = std::sin(fraction * angle_ / 2) / std::sin(angle_ / 2);
-  const Point d = turned(minus(last_, first_), -sense * (1 - fraction) * angle_ / 2);
+  const Point d = turned(last_ - first_, -sense * (1 - fraction) * angle_ / 2);
   return {first_.x + d.x * ratio, first_.y + d.y * ratio};
 }
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernel/vectors.hpp"
+
 namespace krepl::measure {
 
 namespace {
 
-double distance(Point a, Point b) { return std::hypot(b.x - a.x, b.y - a.y); }
-double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
-Point minus(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+using namespace vectors;
 
 struct Piece {
   double length = 0, area = 0;  // area: between the piece and a point of the ring
@@ -23,14 +23,14 @@ struct Turn {
 Turn turn_of(const input::ResultPiece& arc) {
   const double a = distance(arc.start, arc.middle), b = distance(arc.middle, arc.end), c = distance(arc.start, arc.end);
   if (c == 0) return {a / 2, 2 * std::numbers::pi};
-  const double area = cross(minus(arc.middle, arc.start), minus(arc.end, arc.middle)) / 2;
+  const double area = cross(arc.middle - arc.start, arc.end - arc.middle) / 2;
   const double radius = a * b * c / (4 * std::fabs(area));
   const auto part = [&](double chord) { return 2 * std::asin(std::min(1.0, chord / (2 * radius))); };
   return {radius, std::copysign(part(a) + part(b), area)};
 }
 
 Piece measure(const input::ResultPiece& piece, Point from) {
-  const double triangle = cross(minus(piece.start, from), minus(piece.end, from)) / 2;
+  const double triangle = cross(piece.start - from, piece.end - from) / 2;
   if (!piece.arc) return {distance(piece.start, piece.end), triangle};
   const Turn turn = turn_of(piece);
   if (!std::isfinite(turn.radius)) return {distance(piece.start, piece.end), triangle};

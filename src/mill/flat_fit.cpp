@@ -4,13 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernel/vectors.hpp"
+
 namespace krepl::mill {
 namespace {
 
-Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
-double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
-double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
-double length(Point a) { return std::hypot(a.x, a.y); }
+using namespace vectors;
 
 /// The farthest end for which `fits` holds, found by doubling and halving; `first` + 1 at least.
 template <class Fits>
@@ -32,7 +31,7 @@ double distance_to_segment(Point p, Point a, Point b) {
   const Point d = b - a;
   const double squared = dot(d, d);
   const double s = squared > 0 ? std::clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0;
-  return length({a.x + s * d.x - p.x, a.y + s * d.y - p.y});
+  return length(Point{a.x + s * d.x - p.x, a.y + s * d.y - p.y});
 }
 
 }  // namespace

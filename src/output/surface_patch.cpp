@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/orientation.hpp"
+#include "kernel/vectors.hpp"
 
 namespace krepl::output {
 
@@ -11,13 +12,7 @@ namespace {
 
 using Kind = Terrain::FeatureKind;
 
-Point3 minus(Point3 a, Point3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-double dot(Point3 a, Point3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Point3 cross(Point3 a, Point3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-Point3 unit(Point3 v) {
-  const double length = std::hypot(v.x, v.y, v.z);
-  return {v.x / length, v.y / length, v.z / length};
-}
+using namespace vectors;
 
 }  // namespace
 
@@ -26,9 +21,9 @@ SurfacePatch::SurfacePatch(const Terrain& terrain, Terrain::Index feature, doubl
 
 SurfacePatch::SurfacePatch(Kind kind, const Terrain::Corners& corners, double radius)
     : kind_(kind), radius_(radius), corners_(corners), at_(corners_.point[0]) {
-  if (kind_ == Kind::edge) direction_ = unit(minus(corners_.point[1], at_));
+  if (kind_ == Kind::edge) direction_ = unit(corners_.point[1] - at_);
   if (kind_ == Kind::face) {
-    direction_ = unit(cross(minus(corners_.point[1], at_), minus(corners_.point[2], at_)));
+    direction_ = unit(cross(corners_.point[1] - at_, corners_.point[2] - at_));
     if (direction_.z < 0) direction_ = {-direction_.x, -direction_.y, -direction_.z};
   }
 }
@@ -45,7 +40,7 @@ double SurfacePatch::height(double x, double y) const {
 bool SurfacePatch::is_over_feature(Point3 p) const {
   if (kind_ == Kind::vertex) return true;
   const auto& corner = corners_.point;
-  if (kind_ == Kind::edge) return dot(minus(p, at_), direction_) >= 0 && dot(minus(p, corner[1]), direction_) <= 0;
+  if (kind_ == Kind::edge) return dot(p - at_, direction_) >= 0 && dot(p - corner[1], direction_) <= 0;
   const Point touched{p.x - radius_ * direction_.x, p.y - radius_ * direction_.y};
   int left = 0, right = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -58,7 +53,7 @@ bool SurfacePatch::is_over_feature(Point3 p) const {
 
 Point3 SurfacePatch::normal(Point3 p) const {
   if (kind_ == Kind::face) return direction_;
-  Point3 away = minus(p, at_);
+  Point3 away = p - at_;
   if (kind_ == Kind::edge) {
     const double along = dot(away, direction_);
     away = {away.x - along * direction_.x, away.y - along * direction_.y, away.z - along * direction_.z};
@@ -68,7 +63,7 @@ Point3 SurfacePatch::normal(Point3 p) const {
 
 double SurfacePatch::curved_square(Point3 a, Point3 b) const {
   if (kind_ == Kind::face) return 0;
-  const Point3 d = minus(b, a);
+  const Point3 d = b - a;
   const Point3 curved = kind_ == Kind::vertex ? d : cross(d, direction_);
   return dot(curved, curved);
 }
@@ -84,7 +79,7 @@ double SurfacePatch::deviation(Point3 a, Point3 b, Point3 c) const {
   // Of a cylinder, and of a sphere under an obtuse triangle, the farthest place is the middle of the longest side; else the
   // centre of the circumscribed circle.
   if (kind_ != Kind::vertex || square[0] + square[1] <= square[2]) return sagitta(square[2]);
-  const Point3 normal = cross(minus(b, a), minus(c, a));
+  const Point3 normal = cross(b - a, c - a);
   const double circumradius_square = square[0] * square[1] / (4 * dot(normal, normal)) * square[2];
   return sagitta(4 * circumradius_square);
 }

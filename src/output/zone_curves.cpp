@@ -5,15 +5,15 @@
 #include <limits>
 #include <numbers>
 
+#include "kernel/vectors.hpp"
+
 namespace krepl::output {
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Point minus(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
-double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
-double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+using namespace vectors;
 
 /// The point at distance radius from center in direction d, which need not be a unit vector.
 Point towards(Point center, double radius, Point d) {
@@ -23,7 +23,7 @@ Point towards(Point center, double radius, Point d) {
 
 /// A full circle's quarter points from `start` on, counter-clockwise, closed.
 std::vector<Point> circle_points(const Zone::Piece& circle) {
-  Point u = minus(circle.start, circle.center);
+  Point u = circle.start - circle.center;
   Point c = circle.center;
   return {circle.start, {c.x - u.y, c.y + u.x}, {c.x - u.x, c.y - u.y}, {c.x + u.y, c.y - u.x}, circle.start};
 }
@@ -60,7 +60,7 @@ std::vector<Point> as_it_runs(const Zone::Piece& arc, std::vector<Point> points)
 double arc_angle(const Zone::Piece& piece) {
   const Zone::Piece arc = counter_clockwise(piece);
   if (arc.start == arc.end) return 2 * pi;
-  Point u = minus(arc.start, arc.center), v = minus(arc.end, arc.center);
+  Point u = arc.start - arc.center, v = arc.end - arc.center;
   double angle = std::atan2(cross(u, v), dot(u, v));
   if (angle > 0) return angle;
   // A tiny arc whose ends are rounded may seem to run backwards; the chord then tells it from nearly a full turn.
@@ -68,10 +68,10 @@ double arc_angle(const Zone::Piece& piece) {
 }
 
 Point arc_middle(Point center, Point start, Point end) {
-  Point u = minus(start, center), v = minus(end, center);
+  Point u = start - center, v = end - center;
   double radius = (std::hypot(u.x, u.y) + std::hypot(v.x, v.y)) / 2;
   if (dot(u, v) <= 0) {  // between a quarter and three quarters: the chord is long, its normal is exact enough
-    Point chord = minus(end, start);
+    Point chord = end - start;
     return towards(center, radius, {chord.y, -chord.x});
   }
   Point sum{u.x + v.x, u.y + v.y};
@@ -82,7 +82,7 @@ Point arc_middle(Point center, Point start, Point end) {
 bool is_negligible(const Zone::Piece& arc) {
   if (arc.start == arc.end) return false;
   double size = std::max(std::fabs(arc.start.x), std::fabs(arc.start.y));
-  Point chord = minus(arc.end, arc.start);
+  Point chord = arc.end - arc.start;
   return std::max(std::fabs(chord.x), std::fabs(chord.y)) <= 8 * std::numeric_limits<double>::epsilon() * size;
 }
 
@@ -91,7 +91,7 @@ std::vector<Point> arc_points(const Zone::Piece& piece) {
   const Zone::Piece& arc = piece;
   if (arc.start == arc.end) return circle_points(arc);
   Point middle = arc_middle(arc.center, arc.start, arc.end);
-  Point u = minus(arc.start, arc.center), v = minus(arc.end, arc.center);
+  Point u = arc.start - arc.center, v = arc.end - arc.center;
   if (cross(u, v) >= 0) return {arc.start, middle, arc.end};
   return {arc.start, arc_middle(arc.center, arc.start, middle), middle,
           arc_middle(arc.center, middle, arc.end), arc.end};
@@ -137,7 +137,7 @@ RingMeasure measure_ring(const Zone& zone, std::uint32_t ring) {
   Point base = zone.piece(zone.ring_begin(ring)).start;
   for (std::uint32_t e = zone.ring_begin(ring); e < zone.ring_begin(ring + 1); ++e) {
     Zone::Piece piece = zone.piece(e);
-    measure.area += cross(minus(piece.start, base), minus(piece.end, base)) / 2;
+    measure.area += cross(piece.start - base, piece.end - base) / 2;
     measure.length += piece_length(piece);
     if (piece.kind != Zone::Kind::arc) continue;
     double angle = arc_angle(piece);

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/vectors.hpp"
+
 namespace krepl::river {
 namespace {
 
-double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
+using vectors::distance;
 
 /// Gives equal grid points one number, by their coordinates.
 void weld(const std::vector<GridPoint>& points, std::vector<GridPoint>& vertices, std::vector<Index>& number) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/vectors.hpp"
 #include "model/segment_tree.hpp"
 #include "river/lines.hpp"
 
@@ -10,7 +11,7 @@ namespace {
 
 constexpr Index none = ~Index{0};
 
-double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
+using vectors::distance;
 
 class Snapping {
  public:

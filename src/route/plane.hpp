@@ -4,20 +4,21 @@
 #include <cmath>
 #include <numbers>
 
-#include "krepl/point.hpp"
+#include "kernel/vectors.hpp"
 
 /// Vectors of the plane, as the room of routes uses them.
 namespace krepl::route {
 
 inline constexpr double turn = 2 * std::numbers::pi;
 
-inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
-inline Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
-inline Point operator*(double s, Point a) { return {s * a.x, s * a.y}; }
-inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
-inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
-inline double length(Point a) { return std::hypot(a.x, a.y); }
-inline double distance(Point a, Point b) { return length(a - b); }
+using vectors::operator+;
+using vectors::operator-;
+using vectors::operator*;
+using vectors::cross;
+using vectors::distance;
+using vectors::dot;
+using vectors::length;
+
 /// To the right of a direction.
 inline Point right(Point u) { return {u.y, -u.x}; }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "kernel/parallel.hpp"
+#include "kernel/vectors.hpp"
 #include "shape/uncovered.hpp"
 
 namespace krepl::shape {
@@ -15,7 +16,7 @@ namespace {
 
 using zone::ShapedRings;
 
-double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
+using vectors::distance;
 
 Error unmatched(const Uncovered& u) {
   return {ErrorCode::computation, "the boundary could not be certified: an end has no counterpart",

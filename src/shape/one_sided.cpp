@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/vectors.hpp"
 #include "voronoi/bisector.hpp"
 #include "voronoi/diagram.hpp"
 #include "voronoi/site_boxes.hpp"
@@ -19,7 +20,7 @@ using voronoi::Diagram;
 using zone::Index;
 using zone::none;
 
-double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
+using vectors::distance;
 
 /// Which elements (sides of segments, and vertices) are on the wanted side of their lines.
 std::vector<bool> wanted_elements(const Network& network, const zone::Instance& in, Side side) {

@@ -95,6 +95,7 @@ class Cells {
   const Bound* side_along(const Turn& turn) const;
   bool has_corner(Index patch, Point p) const;
   bool is_covered(Point p) const;
+  bool hides_foot_of_seam(Point corner) const;
   bool share_corner(Index a, Index b, Point p) const;
   bool curve_is_simple(const Turn& turn, const Box& box) const;
   Range slope_of_difference(Index a, Index b, const Box& box, Gradient direction) const;

@@ -122,6 +122,33 @@ std::optional<PointOf<Real>> Cells<Real>::common_corner(const Box& box) const {
   return found;
 }
 
+/// True if a patch that meets the corner rises above a straight seam there which shows farther on: the valley beside it
+/// crosses the seam once more then. Above the seam the other patch's height is concave, so that it does so at its foot or not at all.
+template <class Real>
+bool Cells<Real>::hides_foot_of_seam(Point corner) const {
+  const PatchSet<Real>& patches = envelope_.patches();
+  for (const Turn& seam : turns_) {
+    if (seam.meeting != Meeting::seam) continue;
+    const Real dx = seam.at.x - corner.x, dy = seam.at.y - corner.y;
+    for (const Turn& valley : turns_) {
+      if (valley.meeting != Meeting::valley) continue;
+      const auto is_of_seam = [&](Index l) { return l == seam.before || l == seam.after; };
+      if (is_of_seam(valley.before) == is_of_seam(valley.after)) continue;
+      const Index low = is_of_seam(valley.before) ? valley.before : valley.after;
+      const Index high = low == valley.before ? valley.after : valley.before;
+      const Gradient g = patches.gradient(high, corner), k = patches.gradient(low, corner);
+      if (!((g.x - k.x) * dx + (g.y - k.y) * dy > 4 * envelope_.noise())) continue;
+      for (Real part = 0.5; part > 0x1p-30; part *= 0.5) {
+        const Point p{corner.x + part * dx, corner.y + part * dy};
+        if (patches.contains(high, p) &&
+            envelope_.clamped_height(high, p) - envelope_.clamped_height(low, p) > 4 * envelope_.noise())
+          return true;
+      }
+    }
+  }
+  return false;
+}
+
 template <class Real>
 std::optional<PointOf<Real>> Cells<Real>::star_point(const Box& box) const {
   const PatchSet<Real>& patches = envelope_.patches();
@@ -184,6 +211,7 @@ std::optional<PointOf<Real>> Cells<Real>::star_point(const Box& box) const {
     for (std::size_t k = 0; k < n; ++k) {
       if (!passes(k, *corner)) return std::nullopt;
     }
+    if (hides_foot_of_seam(*corner)) return std::nullopt;
     // Patches that end in walls at one place can meet once more nearby.
     const bool walls = std::any_of(turns_.begin(), turns_.end(), [&](const Turn& t) {
       return t.after != none && t.meeting != Meeting::rim && envelope_.rim_at(t.after, *corner) != nullptr;

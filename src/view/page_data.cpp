@@ -8,16 +8,17 @@
 #include <numbers>
 #include <numeric>
 
+#include "kernel/vectors.hpp"
+
 namespace krepl::view {
 
 namespace {
 
 constexpr std::size_t most_pieces = std::size_t{1} << 31;
 
-Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
-double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+using namespace vectors;
+
 bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-double distance(Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 struct Arc {
   Point center;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "kernel/box_tree.hpp"
+#include "kernel/vectors.hpp"
 
 namespace krepl::voronoi {
 namespace {
@@ -13,8 +14,8 @@ namespace {
 using Curve = OwnerZone::Curve;
 using Kind = OwnerZone::Kind;
 
-double cross(Point o, Point p, Point q) { return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x); }
-double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
+using vectors::cross;
+using vectors::distance;
 
 /// Counter-clockwise angle of an arc, in (0, 2 pi].
 double sweep(const Curve& arc) {

@@ -6,6 +6,7 @@
 
 #include "kernel/box_tree.hpp"
 #include "kernel/parallel.hpp"
+#include "kernel/vectors.hpp"
 #include "zone/polygon_locator.hpp"
 
 namespace krepl::zone {
@@ -16,7 +17,7 @@ constexpr Index chunk = 16;  // consecutive pieces under one box
 
 using kernel::Box;
 
-double cross(Point o, Point p, Point q) { return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x); }
+using vectors::cross;
 
 /// Everything about one piece that the ray needs.
 class PieceShape {

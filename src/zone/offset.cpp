@@ -9,6 +9,7 @@
 
 #include "kernel/box_tree.hpp"
 #include "kernel/orientation.hpp"
+#include "kernel/vectors.hpp"
 #include "krepl/zone.hpp"
 
 namespace krepl {
@@ -18,12 +19,10 @@ using Index = std::uint32_t;
 
 enum Sides : unsigned { neither = 0, left = 1, right = 2 };
 
-Point minus(Point p, Point q) { return {p.x - q.x, p.y - q.y}; }
-double cross(Point p, Point q) { return p.x * q.y - p.y * q.x; }
-double dot(Point p, Point q) { return p.x * q.x + p.y * q.y; }
+using namespace vectors;
 
 double angle_of(const OffsetCurve::Piece& arc) {
-  const Point u = minus(arc.start, arc.center), v = minus(arc.end, arc.center);
+  const Point u = arc.start - arc.center, v = arc.end - arc.center;
   const double angle = arc.clockwise ? std::atan2(cross(v, u), dot(u, v)) : std::atan2(cross(u, v), dot(u, v));
   if (arc.start == arc.end) return 2 * std::numbers::pi;
   return angle < -1 ? angle + 2 * std::numbers::pi : std::max(angle, 0.0);  // a tiny arc may seem to run backwards
@@ -98,14 +97,14 @@ class LineSides {
   /// The arc is in a gap between two segments at its vertex, of more than half a turn: what it is to both of them. At a
   /// free end these are the two sides of one segment, so a cap is to neither side.
   unsigned arc_sides(const Zone::Piece& arc) const {
-    const Point u = minus(arc.start, arc.center), v = minus(arc.end, arc.center), chord = minus(arc.end, arc.start);
+    const Point u = arc.start - arc.center, v = arc.end - arc.center, chord = arc.end - arc.start;
     Point middle{u.x + v.x, u.y + v.y};
     if (dot(u, v) <= 0) middle = {chord.y, -chord.x};  // up to half a turn; the sum may vanish
     const Point at = line_.vertices()[arc.source];
     Index next = arc.source, previous = arc.source;  // counter-clockwise from the middle, and clockwise
     double least = 0, most = 0;
     for (Index i = begin_[arc.source]; i < begin_[arc.source + 1]; ++i) {
-      const Point w = minus(line_.vertices()[neighbour_[i]], at);
+      const Point w = line_.vertices()[neighbour_[i]] - at;
       double turn = std::atan2(cross(middle, w), dot(middle, w));
       if (turn < 0) turn += 2 * std::numbers::pi;
       if (next == arc.source || turn < least) next = neighbour_[i], least = turn;

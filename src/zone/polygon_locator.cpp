@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "kernel/vectors.hpp"
+
 namespace krepl::zone {
 namespace {
 
-double cross(Point o, Point p, Point q) { return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x); }
+using vectors::cross;
 
 }  // namespace
 

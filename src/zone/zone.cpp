@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/vectors.hpp"
 #include "zone/varied_sites.hpp"
 
 namespace krepl {
 namespace {
 
-double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
+using vectors::distance;
 
 /// Counter-clockwise angle from p to q about c, in (0, 2 pi]; equal points mean the full circle.
 double sweep_angle(Point c, Point p, Point q) {

@@ -2,6 +2,7 @@
 // refuses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
@@ -135,16 +136,13 @@ struct Tally {
     const auto surface = incremental_surface(c), other = surface_within(c, 10);
     if (!surface) return note(uncertified, number, surface.error().text(), c);
     if (const auto fault = fault_in(*surface, c, {})) return note(wrong, number, *fault, c);
-    if (!other) {
-      ++other_late;
-      return;
-    }
+    if (!other) return note(other_late, number, other.error().text(), c);
     const auto comparison = compare(*other, *surface, 1e-9 * std::max(c.radius, (*terrain)->extent()));
     up_to_tangency += !comparison.difference && comparison.up_to_tangency;
     if (!comparison.difference)
       ++same;
-    else if (fault_in(*other, c, {}))
-      ++other_wrong;
+    else if (const auto fault = fault_in(*other, c, {}))
+      note(other_wrong, number, *fault, c);
     else
       note(differ, number, *comparison.difference, c);
   }
@@ -188,20 +186,27 @@ TEST(Incremental, RandomTerrainsOfWholeNumbersAgree) {
   }
 }
 
+using IncrementalLong = testing::TestWithParam<int>;
+
+std::string kind_name(int kind) { return kind < 3 ? real_names[kind] : name(SmallTerrainFamily(kind - 3)); }
+
 /// 100,000 in nine kinds. Those of which the tests in ./check take none still have faults (docs/incremental.md).
-TEST(IncrementalLong, RandomTerrains) {
-  const int cases = int(100000 / 9 * effort());
-  for (int kind = 0; kind < 3 + int(SmallTerrainFamily::count); ++kind) {
-    std::mt19937_64 random(seed() + 100 + std::uint64_t(kind));
-    Tally tally;
-    for (int i = 0; i < cases; ++i) {
-      tally.add(kind < 3 ? random_terrain(random, kind) : random_terrain(random, SmallTerrainFamily(kind - 3)), i);
-    }
-    const char* kind_name = kind < 3 ? real_names[kind] : name(SmallTerrainFamily(kind - 3));
-    tally.print(kind_name);
-    EXPECT_EQ(tally.differ + tally.uncertified + tally.wrong + tally.other_wrong + tally.other_late, 0) << kind_name;
+TEST_P(IncrementalLong, RandomTerrainsAgree) {
+  const int kind = GetParam(), cases = int(100000 / 9 * effort());
+  std::mt19937_64 random(seed() + 100 + std::uint64_t(kind));
+  Tally tally;
+  for (int i = 0; i < cases; ++i) {
+    tally.add(kind < 3 ? random_terrain(random, kind) : random_terrain(random, SmallTerrainFamily(kind - 3)), i);
   }
+  tally.print(kind_name(kind).c_str());
+  EXPECT_EQ(tally.differ + tally.uncertified + tally.wrong + tally.other_wrong + tally.other_late, 0);
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, IncrementalLong, testing::Range(0, 3 + int(SmallTerrainFamily::count)), [](const auto& info) {
+  std::string name = kind_name(info.param);
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+});
 
 TEST(Incremental, RefusesWithAReason) {
   const SmallTerrain c = counter_example();

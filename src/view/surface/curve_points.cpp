@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernel/vectors.hpp"
+
 namespace krepl::view {
 
 namespace {
@@ -15,11 +17,7 @@ constexpr int deepest = 10;          // halvings of a stretch between two given 
 constexpr int root_steps = 60;       // of bisection
 constexpr double most_steps = 1024;  // chords of an arc
 
-Point3 operator+(Point3 a, Point3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Point3 operator-(Point3 a, Point3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Point3 operator*(double f, Point3 a) { return {f * a.x, f * a.y, f * a.z}; }
-double dot(Point3 a, Point3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Point3 cross(Point3 a, Point3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+using namespace vectors;
 
 double distance_to_chord(Point3 p, Point3 a, Point3 b) {
   const Point3 d = b - a, w = p - a;
