@@ -300,7 +300,8 @@ bool Union::set_labels(Arc& arc) const {
   const Real scale = tolerance_.scale;
   arc.label = labels_beside(arc, 0x1p-30L * scale);
   if (!is_about(arc.label, arc) || arc.curve->own[1] == none) {
-    // Two rims that cross at an angle of 1e-5, one a bit below the other: beside a short arc only the nearest place tells.
+    // Two rims that cross at an angle of 1e-5, one a bit below the other: beside a short arc only the nearest place
+    // tells.
     const bool is_short = arc.reach < 0x1p-24L * scale;
     for (const Real share : {0x1p-46L, 0x1p-42L, 0x1p-36L, 0x1p-24L, 0x1p-18L}) {
       if (share == 0x1p-46L && !is_short) continue;
@@ -327,9 +328,8 @@ bool Union::set_labels(Arc& arc) const {
   if (arc.lower != 2)
     arc.kind = EdgeKind::rim;
   else
-    arc.kind = length(contact[0] - contact[1]) <= 8 * near &&
-                       (parts_.share_corner(arc.label[0], arc.label[1]) ||
-                        parts_.are_in_one_line(arc.label[0], arc.label[1]))
+    arc.kind = length(contact[0] - contact[1]) <= 8 * near && (parts_.share_corner(arc.label[0], arc.label[1]) ||
+                                                               parts_.are_in_one_line(arc.label[0], arc.label[1]))
                    ? EdgeKind::seam
                    : EdgeKind::valley;
   return true;

@@ -290,21 +290,50 @@ bool Cells<Real>::are_coplanar(Index a, Index b, const Box& box) const {
   return apart + dx * box.half_x() + dy * box.half_y() <= envelope_.noise();
 }
 
+/// Where two cylinders are equally high and tangent at once, if that is in the box: a ball there touches the point in
+/// which their edges cross. Four valleys meet there, of which a cell has two if a cut runs through.
+template <class Real>
+std::optional<PointOf<Real>> Cells<Real>::crossing_of_edges(const Turn& t, const Box& box) const {
+  const PatchSet<Real>& patches = envelope_.patches();
+  if (t.meeting != Meeting::valley) return std::nullopt;
+  const Patch &a = patches[t.before], &b = patches[t.after];
+  if (a.kind != Terrain::FeatureKind::edge || b.kind != Terrain::FeatureKind::edge) return std::nullopt;
+  const Real sine = a.gx * b.gy - a.gy * b.gx;
+  if (absolute(sine) < 0x1p-20) return std::nullopt;
+  const Real dx = b.at.x - a.at.x, dy = b.at.y - a.at.y;
+  const Real along_a = (dx * b.gy - dy * b.gx) / sine, along_b = (dx * a.gy - dy * a.gx) / sine;
+  if (absolute(a.z + along_a * a.m - b.z - along_b * b.m) > envelope_.tolerance()) return std::nullopt;
+  // The normal is at right angles to both edges: its slopes along them are -m.
+  const Real nx = (a.gy * b.m - b.gy * a.m) / sine, ny = (b.gx * a.m - a.gx * b.m) / sine;
+  const Real reach = patches.radius() / square_root(1 + nx * nx + ny * ny), slack = envelope_.tolerance();
+  const Point p{a.at.x + along_a * a.gx + reach * nx, a.at.y + along_a * a.gy + reach * ny};
+  const bool inside =
+      p.x >= box.low.x - slack && p.x <= box.high.x + slack && p.y >= box.low.y - slack && p.y <= box.high.y + slack;
+  return inside && shows_at(t.before, p) && shows_at(t.after, p) ? std::optional(p) : std::nullopt;
+}
+
 template <class Real>
 bool Cells<Real>::settle_arc(const Box& box, bool smallest) {
   const Turn &a = turns_[0], &b = turns_[1];
   if (a.meeting != b.meeting) return settle_star(box, smallest);  // where a valley ends in a wall
   if (!smallest && !(curve_is_simple(a, box) && stays_wall(a, b.at, box))) return false;
-  connect(a, b);
+  if (const std::optional<Point> p = crossing_of_edges(a, box))
+    add_vertex(*p);
+  else
+    connect(a, b);
   return true;
 }
 
-/// True if the label is the upper one of a wall.
+/// True if the label is the upper one of a wall, or has one of two walls of one height with a gap between them that is
+/// too narrow to show.
 template <class Real>
 bool Cells<Real>::is_wall_of(const Turn& turn, Index label) const {
   if (turn.meeting != Meeting::rim || label == none || (turn.before != label && turn.after != label)) return false;
   const Index other = turn.before == label ? turn.after : turn.before;
-  return other == none || envelope_.border_height(label, turn.at) > envelope_.border_height(other, turn.at);
+  if (other == none || envelope_.border_height(label, turn.at) > envelope_.border_height(other, turn.at)) return true;
+  if (envelope_.rim_at(label, turn.at) == nullptr || envelope_.rim_at(other, turn.at) == nullptr) return false;
+  const Real apart = envelope_.rim_height(label, turn.at) - envelope_.rim_height(other, turn.at);
+  return absolute(apart) <= envelope_.tolerance();
 }
 
 /// The upper and the lower label of a wall between two.
@@ -376,8 +405,8 @@ PointOf<Real> Cells<Real>::least_gap(const Box& box) const {
 }
 
 /// The corner at which a patch's sides end that bound it at two turns in a row, if it lies close to p. Where the two
-/// are tangent, the patch is too thin to show for a stretch beyond its corner. The same if the patch's own wall runs in the
-/// foot of a higher one that passes the corner, too.
+/// are tangent, the patch is too thin to show for a stretch beyond its corner. The same if the patch's own wall runs in
+/// the foot of a higher one that passes the corner, too.
 template <class Real>
 std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
   const PatchSet<Real>& patches = envelope_.patches();
@@ -394,9 +423,7 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
     const Index patch = from.after;
     if (patch == none || from.before == to.after) continue;
     const auto is_at_foot = [&](const Turn& t) { return t.meeting == Meeting::rim && !is_wall_of(t, patch); };
-    const auto own_side = [&](const Turn& t) {
-      return is_at_foot(t) ? envelope_.rim_at(patch, t.at) : side_along(t);
-    };
+    const auto own_side = [&](const Turn& t) { return is_at_foot(t) ? envelope_.rim_at(patch, t.at) : side_along(t); };
     const Bound *a = own_side(from), *b = own_side(to);
     if (a == nullptr || b == nullptr || a == b) continue;
     for (const Point c : patches.corners(patch)) {

@@ -74,6 +74,7 @@ class Cells {
   bool refine(const Cell& cell, std::span<const Index> candidates);
   void walk(const Cell& cell);
   bool settle(const Cell& cell, std::span<Index> candidates, bool smallest);
+  std::optional<Point> crossing_of_edges(const Turn& turn, const Box& box) const;
   bool settle_arc(const Box& box, bool smallest);
   bool settle_strips(const Box& box);
   bool pair_turns();

@@ -75,7 +75,8 @@ bool Cells<Real>::is_thin(Index patch, Index a, Index b, const Box& box, Real wi
       const Real least = std::min(absolute(f.c), absolute(g.c)), slope = least * steepness - 1;
       const Real deepest = envelope_.bound_range(sum, box).low;
       if (deepest >= -width * std::clamp<Real>(slope, 1, 64)) return true;
-      // Steeper still, what is thin in the plane has to be so on the surface, too: their functions are c times as steep.
+      // Steeper still, what is thin in the plane has to be so on the surface, too: their functions are c times as
+      // steep.
       if (slope > 64 && deepest >= -width * slope && deepest >= -envelope_.thickness() * least) return true;
     }
   }
@@ -172,11 +173,12 @@ bool Cells<Real>::all_are_prisms(std::span<const Index> candidates, const Box& b
 }
 
 /// True if a patch that shows nowhere around the cell can show inside it only within the tolerance of one of its sides:
-/// where a valley is tangent to a seam, or a wall to another one.
+/// where a valley is tangent to a seam, or a wall to another one; or within the tolerance of a wall above it, where a
+/// valley is tangent to its foot.
 ///
-/// With g < 0 on the patch's side, and f < 0 where it is hidden: if f - k g <= k t s all over the box, then f <= 0 wherever
-/// g <= -t s, and the distance from there to the side is t if g changes by at least s across it: 1 for the sides of a patch
-/// (for a disc about 2 R), and more beside a wall.
+/// With g < 0 on the patch's side, and f < 0 where it is hidden: if f - k g <= k t s all over the box, then f <= 0
+/// wherever g <= -t s, and the distance from there to the side is t if g changes by at least s across it: 1 for the
+/// sides of a patch (for a disc about 2 R), and more beside a wall.
 template <class Real>
 bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
   const PatchSet<Real>& patches = envelope_.patches();
@@ -203,13 +205,12 @@ bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
                     {cs.x - os.x, cs.y - os.y}};
   };
   const auto least = [](Range r) { return r.low > 0 ? r.low : r.high < 0 ? -r.high : Real(0); };
-  for (const Bound& b : patches.bounds(patch)) {
-    if (b.partner == none ? !b.rim : !is_seen(b.partner)) continue;
-    const Function g = side(b);
+  // True if some label other than `beside` hides the patch wherever g is below -across times the tolerance.
+  const auto hides_beyond = [&](const Function& g, Real across, Index beside) {
     const Real square = g.gradient.x * g.gradient.x + g.gradient.y * g.gradient.y;
-    const Real across = std::max(b.type == BoundType::disc ? Real(0) : Real(1), norm(least(g.range.x), least(g.range.y)));
+    across = std::max(across, norm(least(g.range.x), least(g.range.y)));
     for (const Turn& t : turns_) {
-      if (t.after == none || t.after == b.partner) continue;
+      if (t.after == none || t.after == beside) continue;
       const Function f = hidden_by(t.after);
       const Real k = (f.gradient.x * g.gradient.x + f.gradient.y * g.gradient.y) / square;
       if (!(k > 0) || !is_finite(f.value)) continue;  // the middle may be beyond a wall
@@ -219,6 +220,20 @@ bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
                         std::max(absolute(y.low), absolute(y.high)) * box.half_y();
       if (most <= k * across * envelope_.tolerance()) return true;
     }
+    return false;
+  };
+  for (const Bound& b : patches.bounds(patch)) {
+    if (b.partner == none ? !b.rim : !is_seen(b.partner)) continue;
+    if (hides_beyond(side(b), b.type == BoundType::disc ? 0 : 1, b.partner)) return true;
+  }
+  // At the foot of another one's wall.
+  for (const Turn& t : turns_) {
+    if (t.after == none || t.meeting != Meeting::rim) continue;
+    const std::optional<Bound> wall = envelope_.wall_above(t.after, patch, box);
+    if (!wall) continue;
+    Bound outside = *wall;
+    outside.negative = !outside.negative;
+    if (hides_beyond(side(outside), outside.type == BoundType::disc ? 0 : 1, t.after)) return true;
   }
   return false;
 }

@@ -123,7 +123,8 @@ std::optional<PointOf<Real>> Cells<Real>::common_corner(const Box& box) const {
 }
 
 /// True if a patch that meets the corner rises above a straight seam there which shows farther on: the valley beside it
-/// crosses the seam once more then. Above the seam the other patch's height is concave, so that it does so at its foot or not at all.
+/// crosses the seam once more then. Above the seam the other patch's height is concave, so that it does so at its foot
+/// or not at all.
 template <class Real>
 bool Cells<Real>::hides_foot_of_seam(Point corner) const {
   const PatchSet<Real>& patches = envelope_.patches();

@@ -202,11 +202,12 @@ TEST_P(IncrementalLong, RandomTerrainsAgree) {
   EXPECT_EQ(tally.differ + tally.uncertified + tally.wrong + tally.other_wrong + tally.other_late, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, IncrementalLong, testing::Range(0, 3 + int(SmallTerrainFamily::count)), [](const auto& info) {
-  std::string name = kind_name(info.param);
-  std::replace(name.begin(), name.end(), ' ', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Kinds, IncrementalLong, testing::Range(0, 3 + int(SmallTerrainFamily::count)),
+                         [](const auto& info) {
+                           std::string name = kind_name(info.param);
+                           std::replace(name.begin(), name.end(), ' ', '_');
+                           return name;
+                         });
 
 TEST(Incremental, RefusesWithAReason) {
   const SmallTerrain c = counter_example();

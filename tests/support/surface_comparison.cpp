@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -37,11 +38,17 @@ struct Chain {
 class Reduced {
  public:
   Reduced(const Surface& surface, double tolerance, bool up_to_tangency)
-      : surface_(surface), topology_(surface.subdivision()), next_(topology_.next), previous_(next_.size()) {
+      : surface_(surface),
+        topology_(surface.subdivision()),
+        origin_(topology_.origin),
+        next_(topology_.next),
+        previous_(next_.size()) {
     const auto count = Index(next_.size());
     for (Index h = 0; h < count; ++h) previous_[next_[h]] = h;
     vertex_.resize(topology_.vertex_count);
-    for (Index v = 0; v < vertex_.size(); ++v) vertex_[v] = v;
+    std::iota(vertex_.begin(), vertex_.end(), Index{0});
+    face_.resize(topology_.face_count());
+    std::iota(face_.begin(), face_.end(), Index{0});
     alive_.assign(count, true);
     features_.resize(topology_.vertex_count);
     walls_.resize(topology_.vertex_count);
@@ -57,6 +64,7 @@ class Reduced {
     for (Index h = 0; h < count; ++h) {
       if (alive_[h]) out_[origin(h)].push_back(h);
     }
+    for (Index v = 0; v < topology_.vertex_count; ++v) part_if_touching(v);
     chain_of_.assign(count, none);
     for (Index h = 0; h < count; ++h) {
       if (alive_[h] && is_kept(origin(h))) add(h);
@@ -68,15 +76,15 @@ class Reduced {
 
   const Surface& surface() const { return surface_; }
   int contracted() const { return contracted_; }
-  Index origin(Index h) const { return find(topology_.origin[h]); }
-  Index face(Index h) const { return topology_.face[h]; }
+  Index origin(Index h) const { return find(origin_[h]); }
+  Index face(Index h) const { return root(face_, topology_.face[h]); }
   bool is_kept(Index v) const {
     const auto& out = out_[v];
     return !out.empty() && (out.size() != 2 || !same(out[0] ^ 1u, out[1]));
   }
   const Chain& chain(Index h) const { return chains_[chain_of_[h]]; }
   const std::vector<Chain>& chains() const { return chains_; }
-  Index feature(Index h) const { return surface_.face_feature(face(h)); }
+  Index feature(Index h) const { return surface_.face_feature(topology_.face[h]); }
 
   /// A ball about p touches what balls touch beside the vertex, within the tolerance. What ends in a wall there may do
   /// so further down than the vertex.
@@ -120,10 +128,11 @@ class Reduced {
   }
 
  private:
-  Index find(Index v) const {
-    while (vertex_[v] != v) v = vertex_[v];
-    return v;
+  static Index root(const std::vector<Index>& joined, Index i) {
+    while (joined[i] != i) i = joined[i];
+    return i;
   }
+  Index find(Index v) const { return root(vertex_, v); }
   /// If both ends are the same place but for what cannot be told where curves are tangent, and it stays near.
   void contract_if_short(Index e, double tolerance, bool up_to_tangency) {
     const auto points = surface_.curve(e, 9);
@@ -147,6 +156,28 @@ class Reduced {
       next_[previous_[h]] = next_[h];
       previous_[next_[h]] = previous_[h];
       alive_[h] = false;
+    }
+  }
+  /// Where one edge touches another from within a face, what goes on as itself on either side of the vertex gets a
+  /// vertex of its own.
+  void part_if_touching(Index v) {
+    if (out_[v].size() != 4) return;
+    std::vector<Index> turn = around(v);
+    if (turn.size() != 4) return;
+    for (int i = 0; i < 2; ++i, std::rotate(turn.begin(), turn.begin() + 1, turn.end())) {
+      const bool pass = same(turn[1] ^ 1u, turn[2]) && same(turn[3] ^ 1u, turn[0]);
+      if (!pass || feature(turn[0]) != feature(turn[2]) || feature(turn[1]) == feature(turn[3])) continue;
+      face_[face(turn[0])] = face(turn[2]);
+      for (const auto& [h, after] : {std::pair(turn[1], turn[2]), std::pair(turn[3], turn[0])}) {
+        previous_[after] = h ^ 1u;
+        next_[h ^ 1u] = after;
+      }
+      const auto apart = Index(vertex_.size());
+      vertex_.push_back(apart);
+      for (const Index h : {turn[1], turn[2]}) origin_[h] = apart;
+      out_[v] = {turn[3], turn[0]};
+      out_.push_back({turn[1], turn[2]});
+      return;
     }
   }
   bool same(Index h, Index after) const {
@@ -176,7 +207,8 @@ class Reduced {
 
   const Surface& surface_;
   const Subdivision& topology_;
-  std::vector<Index> next_, previous_, vertex_;
+  std::vector<Index> origin_, next_, previous_;
+  std::vector<Index> vertex_, face_;  // with which one each is one
   std::vector<bool> alive_;
   std::vector<std::set<Index>> features_;  // that balls touch around each vertex
   std::vector<std::set<Index>> walls_;     // of them, those that end in a wall

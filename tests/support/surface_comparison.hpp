@@ -12,6 +12,8 @@ namespace krepl::test {
 /// up to
 ///  - the numbering of vertices, edges and faces;
 ///  - vertices at which one edge merely goes on as itself;
+///  - vertices at which two edges that go on as themselves touch, with one label between them on both sides of the place:
+///    whether what is there is one face or two is less than any tolerance tells;
 ///  - edges both ends of which are the same place within the tolerance: their ends count as one vertex.
 /// Equal means: vertices can be paired so that partners are the same place; around partners the same labels, kinds of
 /// edge and curve, and partners at the other ends follow each other; closed edges without a vertex likewise, halfway
