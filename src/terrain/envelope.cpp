@@ -258,6 +258,23 @@ RangeOf<Real> Envelope<Real>::upright_derivative_range(const Bound& b, const Box
 }
 
 template <class Real>
+Real Envelope<Real>::upright_value(Index i, Index other, Point p) const {
+  const Patch& f = patches_[i];
+  const Gradient axis = rim_gradient(i);
+  const Real q = f.kind == FeatureKind::edge ? f.q : Real(1), dx = p.x - f.at.x, dy = p.y - f.at.y;
+  const Real over = (clamped_height(other, p) - (f.z + axis.x * dx + axis.y * dy)) / q;
+  const Real aside = dy * f.gx - dx * f.gy;
+  const Real square = f.kind == FeatureKind::edge ? aside * aside : dx * dx + dy * dy;
+  return (square + over * over - patches_.square_radius()) / 2;
+}
+
+template <class Real>
+Real Envelope<Real>::upright_value(const Bound& b, Point p) const {
+  const Real dx = p.x - b.at.x, dy = p.y - b.at.y, over = (dx * b.nx + dy * b.ny) / b.c;
+  return (dx * dx + dy * dy + over * over - patches_.square_radius()) / 2;
+}
+
+template <class Real>
 GradientOf<Real> Envelope<Real>::bound_gradient(const Bound& b, Point p) const {
   const Real dx = p.x - b.at.x, dy = p.y - b.at.y;
   if (b.type == BoundType::line) return {b.nx, b.ny};

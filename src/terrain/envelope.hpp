@@ -95,6 +95,10 @@ class Envelope {
   Range upright_derivative_range(Index patch, Index other, const Box& box, Gradient direction) const;
   /// The same of a cone, where the sphere is as high as the plane of the cone's circle.
   Range upright_derivative_range(const Bound& cone, const Box& box, Gradient direction) const;
+  /// Those functions themselves: positive where the other patch is higher, or the plane. The other patch has to be
+  /// above the axis there, the plane above the sphere's centre.
+  Real upright_value(Index patch, Index other, Point p) const;
+  Real upright_value(const Bound& cone, Point p) const;
   /// Height at which a patch ends in a wall: of the points that a ball touches with a horizontal normal.
   Real rim_height(Index patch, Point p) const;
   /// The same as written. Beyond an end of an edge by less than is told apart the wall is that of the next edge, in

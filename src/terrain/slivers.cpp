@@ -25,7 +25,7 @@ bool Cells<Real>::shows_all(const Cell& cell, std::span<Index> candidates) {
     }
     if (cell.box.larger_side() > envelope_.patches().radius() / 128) return false;
     if (is_thin(c, none, none, cell.box, envelope_.tolerance()) || is_tangent_sliver(c, cell.box) ||
-        envelope_.hidden_within_tolerance(c, seen_, cell.box))
+        envelope_.hidden_within_tolerance(c, seen_, cell.box) || is_hidden_beside_wall(c, cell.box))
       continue;
     if (!prisms) prisms = all_are_prisms(candidates, cell.box);
     if (!*prisms) return false;
@@ -234,6 +234,51 @@ bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
     Bound outside = *wall;
     outside.negative = !outside.negative;
     if (hides_beyond(side(outside), outside.type == BoundType::disc ? 0 : 1, t.after)) return true;
+  }
+  return false;
+}
+
+/// True if a nearly vertical patch that shows nowhere around the cell rises above a label by less than matters, or not
+/// at all, on its side of the seam to another: where a valley runs close beside the seam along a wall. As above, with
+/// functions that are smooth there.
+template <class Real>
+bool Cells<Real>::is_hidden_beside_wall(Index patch, const Box& box) const {
+  const PatchSet<Real>& patches = envelope_.patches();
+  const Patch& p = patches[patch];
+  const Point mid = box.middle();
+  if (!is_upright(patch, mid)) return false;
+  const Gradient axis = envelope_.rim_gradient(patch);
+  const Real axis_height = p.z + axis.x * (mid.x - p.at.x) + axis.y * (mid.y - p.at.y);
+  const auto largest = [](Range r) { return std::max(absolute(r.low), absolute(r.high)); };
+  const auto spread = [&](const GradientRange& g) { return largest(g.x) * box.half_x() + largest(g.y) * box.half_y(); };
+  const auto middle = [](Range r) { return (r.low + r.high) / 2; };
+  const auto ranges = [](auto&& derivative) { return GradientRange{derivative({1, 0}), derivative({0, 1})}; };
+  for (const Bound& b : patches.bounds(patch)) {
+    if (b.type != BoundType::cone || b.partner == none || !is_seen(b.partner)) continue;
+    // The plane of the circle has to be above the centre all over the box.
+    const Range plane{-b.nx / b.c, -b.nx / b.c}, plane_y{-b.ny / b.c, -b.ny / b.c};
+    const Real above = plane.low * (mid.x - b.at.x) + plane_y.low * (mid.y - b.at.y);
+    if (!(above > spread({plane, plane_y}))) continue;
+    const Real sign = (b.c > 0) == b.negative ? -1 : 1;  // negative on the patch's side
+    const Real g = sign * envelope_.upright_value(b, mid);
+    const GradientRange dg = ranges([&](Gradient d) { return envelope_.upright_derivative_range(b, box, d); });
+    const Gradient slope{sign * middle(dg.x), sign * middle(dg.y)};
+    for (const Turn& t : turns_) {
+      if (t.after == none || t.after == b.partner) continue;
+      const GradientRange rise = envelope_.gradient_range(t.after, box);
+      const Real over = envelope_.clamped_height(t.after, mid) - axis_height -
+                        spread({rise.x - Range{axis.x, axis.x}, rise.y - Range{axis.y, axis.y}});
+      if (!(over > 0)) continue;
+      const Real f = -envelope_.upright_value(patch, t.after, mid);
+      const GradientRange df =
+          ranges([&](Gradient d) { return envelope_.upright_derivative_range(patch, t.after, box, d); });
+      const Real k = -(middle(df.x) * slope.x + middle(df.y) * slope.y) / (slope.x * slope.x + slope.y * slope.y);
+      if (!(k > 0)) continue;
+      const Range factor{sign * k, sign * k};
+      const Real most = f - k * g + spread({df.x + dg.x * factor, df.y + dg.y * factor});
+      const Real square = p.kind == FeatureKind::edge ? p.q * p.q : Real(1);
+      if (most <= over / square * envelope_.thickness()) return true;
+    }
   }
   return false;
 }
