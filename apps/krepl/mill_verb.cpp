@@ -63,11 +63,14 @@ Status take(const char* option, const std::string& text, double& value, bool pos
 Status take_tool(const std::string& text, MillPlan& plan) {
   const Result<Cutter> cutter = Cutter::parse(text);
   if (!cutter) return cutter.error();
-  if (cutter->kind() != Cutter::Kind::ball)
-    return usage(fmt::format("paths of tool '{}' are not made, only those of ball-nose cutters", text), "give --tool ball:DIAMETER");
+  const bool takes_all = plan.strategy == Strategy::parallel || plan.strategy == Strategy::waterline;
+  if (cutter->kind() != Cutter::Kind::ball && !takes_all)
+    return usage(fmt::format("paths of tool '{}' are made by strategies parallel and waterline only", text),
+                 "use one of them, or --tool ball:DIAMETER");
   plan.parallel.tool.radius = cutter->radius();
+  if (cutter->kind() != Cutter::Kind::ball) plan.parallel.tool.cutter = *cutter, plan.gcode.has_centre = false;
   plan.gcode.tool_diameter = cutter->diameter();
-  plan.gcode.tool_name = "ball-nose";
+  plan.gcode.tool_name = cutter->kind() == Cutter::Kind::ball ? "ball-nose" : cutter->text();
   return std::monostate{};
 }
 
@@ -103,7 +106,8 @@ Status take_post(const MillVerbOptions& o, MillPlan& plan) {
   a.arcs = !o.no_arcs;
   // GRBL cuts arcs as chords that are within 0.002 mm ($12) of them.
   if (plan.gcode.post == GcodePost::grbl) a.arc_error = plan.gcode.inches ? 0.002 / 25.4 : 0.002;
-  if (a.control_point == ControlPoint::tip) plan.gcode.below_centre = plan.parallel.tool.radius;
+  if (a.control_point == ControlPoint::tip && !plan.parallel.tool.cutter)
+    plan.gcode.below_centre = plan.parallel.tool.radius;
   a.tolerance = plan.gcode.inches ? 0.0004 : 0.01;
   return take("--tolerance", o.tolerance, a.tolerance);
 }
@@ -297,7 +301,7 @@ int run_mill(const MillVerbOptions& options, Session& session) {
 }
 
 void add_path_options(CLI::App& verb, MillVerbOptions& o) {
-  verb.add_option("--tool", o.tool, "Cutter: ball:DIAMETER")->required()->type_name("KIND:SIZE");
+  verb.add_option("--tool", o.tool, "Cutter: ball:D; for parallel and waterline also flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE, taper:D:ANGLE:TIP_RADIUS")->required()->type_name("KIND:SIZE");
   verb.add_option("--strategy", o.strategy,
                   "parallel (default): passes in vertical planes; rough: out of a block, level by level; waterline: around the "
                   "part, level by level; pencil: along the valleys and the feet of walls")

@@ -192,6 +192,7 @@ void GridPyramid::visit(Search& search, const Reach& reach, std::size_t level,
 template void GridPyramid::run(Search&) const;
 template void GridPyramid::run(ProfileSearch&) const;
 
+template <class Survey>
 void GridPyramid::list(const Survey& survey, Shortlist& shortlist) const {
   Reach reach;
   const double half_x = survey.spread.half_x / scale_.inverse_unit, half_y = survey.spread.half_y / scale_.inverse_unit;
@@ -206,6 +207,7 @@ void GridPyramid::list(const Survey& survey, Shortlist& shortlist) const {
   shortlist.close();
 }
 
+template <class Survey>
 void GridPyramid::list_node(const Survey& survey, const Reach& reach, std::size_t level, std::size_t column, std::size_t row,
                             Shortlist& shortlist) const {
   float bounds[16];
@@ -221,5 +223,8 @@ void GridPyramid::list_node(const Survey& survey, const Reach& reach, std::size_
     }
   }
 }
+
+template void GridPyramid::list(const Survey&, Shortlist&) const;
+template void GridPyramid::list(const ProfileSurvey&, Shortlist&) const;
 
 }  // namespace krepl::drop

@@ -51,7 +51,7 @@ class Shortlist {
 
   /// Looks at the triangles by tree.touch(), the place being (dx, dy) off the centre of the list, where the plane of the
   /// survey is `rise` higher than there.
-  template <class Tree>
+  template <class Tree, class Search>
   void run(const Tree& tree, Search& search, float dx, float dy, float rise) const {
     Candidates<capacity> found;
     for (std::size_t i = 0; i < count_ && bound_[i] + rise >= search.threshold_of_triangles(); i += 4) {
