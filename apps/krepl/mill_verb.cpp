@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "boundary_file.hpp"
 #include "krepl/cutter.hpp"
 #include "krepl/mill.hpp"
 #include "output/gcode_file.hpp"
@@ -22,6 +23,7 @@ struct MillVerbOptions {
   TerrainOptions terrain;
   std::string output, tool, strategy = "parallel", direction, post = "linuxcnc", unit = "mm",
                             control_point = "tip";
+  std::string boundary, shallow;
   std::string step_down, ramp_angle, stock_top, stock_margin, steep, valley_angle, shortest;
   std::string step_over, scallop, tolerance, allowance, angle, bottom, safe_height, clearance, feed, plunge_feed,
       spindle;
@@ -142,6 +144,8 @@ Status check_meaning(const MillVerbOptions& o, Strategy strategy) {
                               {"--direction", o.direction, parallel || waterline, "parallel, waterline"},
                               {"--step-down", o.step_down, rough || waterline, "rough, waterline"},
                               {"--steep", o.steep, waterline, "waterline"},
+                              {"--shallow", o.shallow, parallel, "parallel"},
+                              {"--boundary", o.boundary, parallel || waterline, "parallel, waterline"},
                               {"--valley-angle", o.valley_angle, pencil, "pencil"},
                               {"--shortest", o.shortest, pencil, "pencil"},
                               {"--bottom", o.bottom, !pencil, "parallel, rough, waterline"},
@@ -191,6 +195,7 @@ Status take_passes(const MillVerbOptions& o, MillPlan& plan) {
     return usage("neither --step-over nor --scallop is given", "give one of them");
   if (p.step_over != 0 && p.scallop != 0) return usage("both --step-over and --scallop are given", "give one of them");
   if (Status s = take("--angle", o.angle, p.angle, false); !s) return s;
+  if (Status s = take("--shallow", o.shallow, p.shallow); !s) return s;
   if (Status s = take("--allowance", o.allowance, p.tool.allowance); !s) return s;
   double bottom = 0;
   if (Status s = take("--bottom", o.bottom, bottom, false); !s) return s;
@@ -282,11 +287,19 @@ int run_mill(const MillVerbOptions& options, Session& session) {
   const Stopwatch total;
   Result<MillPlan> plan = make_plan(options);
   if (!plan) return session.fail("", plan.error());
-  if (Status target = check_target(options.output, {options.terrain.request.path}); !target)
+  if (Status target = options.boundary.empty()
+                          ? check_target(options.output, {options.terrain.request.path})
+                          : check_target(options.output, {options.terrain.request.path, options.boundary});
+      !target)
     return session.fail(options.output, target.error());
   const Result<input::TerrainFile> file = input::read_terrain(plan->request, session.context("reading"));
   if (!file) return session.fail(options.terrain.name(), file.error());
   tell_terrain(*file, options.terrain.name(), total.seconds(), session);
+  if (!options.boundary.empty()) {
+    const Result<MillBoundary> boundary = read_boundary(options.boundary, session.context("reading"));
+    if (!boundary) return session.fail(options.boundary, boundary.error());
+    plan->parallel.boundary = plan->waterline.boundary = *boundary;
+  }
   const Stopwatch computing;
   const Context context = session.context("milling");
   const Result<MilledPath> milled = mill_part(file->terrain, *plan, context);
@@ -322,6 +335,12 @@ void add_path_options(CLI::App& verb, MillVerbOptions& o) {
   verb.add_option("--step-down", o.step_down, "rough, waterline: greatest distance of levels")->type_name("LENGTH");
   verb.add_option("--steep", o.steep, "waterline: only where the surface is at least so steep (default: everywhere)")
       ->type_name("DEGREES");
+  verb.add_option("--shallow", o.shallow,
+                  "parallel: only where the surface is less steep, and a step-over beyond (default: everywhere)")
+      ->type_name("DEGREES");
+  verb.add_option("--boundary", o.boundary,
+                  "parallel, waterline: the tool's axis stays within the polygons of this vector file")
+      ->type_name("FILE");
   verb.add_option("--valley-angle", o.valley_angle,
                   "pencil: least angle between the normals of a valley's sides (default: 20)")
       ->type_name("DEGREES");

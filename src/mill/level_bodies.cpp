@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "mill/part_domain.hpp"
 #include "terrain/drop_cutter_part.hpp"
@@ -12,6 +13,21 @@ namespace {
 
 constexpr Interval no_interval{1, 0};
 constexpr int most_steps = 200;
+
+/// A cutter of less radius, nearly of the same profile.
+Cutter shrink(const Cutter& cutter, double radius) {
+  const auto smaller = [&]() -> Result<Cutter> {
+    switch (cutter.kind()) {
+      case Cutter::Kind::flat: return Cutter::flat(2 * radius);
+      case Cutter::Kind::bull_nose: return Cutter::bull_nose(2 * radius, std::min(cutter.corner_radius(), radius));
+      case Cutter::Kind::cone: return Cutter::cone(2 * radius, cutter.angle());
+      case Cutter::Kind::taper: return Cutter::taper(2 * radius, cutter.angle(), cutter.corner_radius());
+      case Cutter::Kind::ball: break;
+    }
+    return Cutter::ball(2 * radius);
+  }();
+  return smaller ? *smaller : *Cutter::ball(2 * radius);  // of a taper the tip is left
+}
 
 bool touches(const Touch& touch) { return touch.height != drop::nothing; }
 
@@ -24,9 +40,7 @@ LevelBodies::LevelBodies(const LiftedCutter& cutter, double level, double grain)
       grain_(grain),
       closest_(std::max(grain * 0x1p-10, 0x1p-48 * std::max(cutter.drop.terrain().extent(), tool_.radius))) {}
 
-bool LevelBodies::is_covered(Point low, Point high) {
-  drop::Part part;
-  if (!search_.find_touched({low.x / 2 + high.x / 2, low.y / 2 + high.y / 2}, part)) return false;
+bool LevelBodies::is_covered_by(const drop::Part& part, Point low, Point high) const {
   drop::ProfileTool tool = tool_;
   for (const Point corner : {low, high, Point{low.x, high.y}, Point{high.x, low.y}}) {
     tool.place = corner;
@@ -35,13 +49,19 @@ bool LevelBodies::is_covered(Point low, Point high) {
   return true;
 }
 
-bool LevelBodies::list(Point low, Point high) { return search_.list_rectangle(low, high, level_, parts_); }
-
-void LevelBodies::list_all(Point low, Point high) {
-  search_.list_all(low, high, parts_);
-  std::erase_if(parts_, [&](const drop::Part& p) {
-    return std::max({p.corner[0].z, p.corner[1].z, p.corner[2].z}) < level_;
-  });
+bool LevelBodies::is_covered(Point low, Point high) {
+  const double half = (high.x - low.x) * std::numbers::sqrt2 / 2;
+  if (half >= tool_.radius) return false;
+  const Point centre{low.x / 2 + high.x / 2, low.y / 2 + high.y / 2};
+  drop::Part part;
+  if (!search_.find_touched(centre, part)) return false;
+  if (is_covered_by(part, low, high)) return true;
+  auto found = inner_.find(high.x - low.x);
+  if (found == inner_.end()) {
+    const auto smaller = search_.cutter().with_cutter(shrink(search_.cutter().cutter(), tool_.radius - half));
+    found = inner_.emplace(high.x - low.x, smaller ? std::make_unique<Inner>(*smaller) : nullptr).first;
+  }
+  return found->second && found->second->search.find_touched(centre, part) && is_covered_by(part, low, high);
 }
 
 Touch LevelBodies::touch(std::size_t part, const Line& line, double t) const {

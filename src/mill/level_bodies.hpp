@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <memory>
 #include <vector>
 
 #include "mill/lifted_cutter.hpp"
@@ -15,12 +17,11 @@ class LevelBodies {
   /// `level`: of the control point, relative to the part's origin; `grain`: gaps and intervals shorter than that count as none.
   LevelBodies(const LiftedCutter& cutter, double level, double grain);
 
-  /// Whether the cutter is known to rest higher everywhere over a rectangle: on one triangle.
+  /// Whether the cutter is known to rest higher everywhere over a square: on one triangle.
   bool is_covered(Point low, Point high);
-  /// Lists the triangles on which it may rest higher somewhere over a rectangle. False if they are many.
-  bool list(Point low, Point high);
-  void list_all(Point low, Point high);
-  bool empty() const { return parts_.empty(); }
+  /// Lists the triangles on which it may rest higher somewhere over a rectangle.
+  void list(Point low, Point high) { search_.list_rectangle(low, high, level_, parts_); }
+  std::size_t size() const { return parts_.size(); }
 
   /// The parts of a line between a and b over which it does not rest higher on any triangle of the list, in their order.
   void free_parts(const Line& line, double a, double b, std::vector<Interval>& free);
@@ -34,7 +35,16 @@ class LevelBodies {
   Interval interval_within(std::size_t part, const Line& line, double a, double b) const;
   bool may_rise_between(std::size_t part, const Line& line, double a, double b) const;
 
+  bool is_covered_by(const drop::Part& part, Point low, Point high) const;
+
   drop::StretchSearch search_;
+  /// What rests on a triangle nearer to its axis covers more: cutters of less radius by half a diagonal of squares, by their size.
+  struct Inner {
+    DropCutter drop;
+    drop::StretchSearch search;
+    explicit Inner(DropCutter smaller) : drop(std::move(smaller)), search(drop) {}
+  };
+  std::map<double, std::unique_ptr<Inner>> inner_;
   drop::ProfileTool tool_;
   double level_, grain_, closest_;  // level_: of the larger cutter's tip
   std::vector<drop::Part> parts_;

@@ -12,6 +12,8 @@ namespace krepl::mill {
 namespace {
 
 constexpr int lattices = 6, deepest = 20;
+constexpr std::size_t most_bodies = 96;  // of a cell, unless it is a small one already
+constexpr int small = 4;
 
 /// Where the border crosses a line of the lattice.
 struct Crossing {
@@ -62,14 +64,13 @@ class Tracer {
     const Point low{x(i), y(j)}, high{x(i + size), y(j + size)};
     const bool large = high.x - low.x > o_.cell;
     if (bodies_.is_covered(low, high)) return true;
-    const bool few = bodies_.list(low, high);
-    if (few && bodies_.empty()) return true;
+    bodies_.list(low, high);
+    if (bodies_.size() == 0) return true;
     if (!large) {
       const double margin = 0.75 * (high.x - low.x) + 2 * o_.within;
       low_ = {low.x - margin, low.y - margin}, high_ = {high.x + margin, high.y + margin};
-      bool listed = bodies_.list(low_, high_);
-      if (!listed && k == 0) bodies_.list_all(low_, high_), listed = true;
-      if (listed) {
+      bodies_.list(low_, high_);
+      if (bodies_.size() <= most_bodies || k <= small) {
         if (!find_passages(i, j, size)) return false;
         if (passages_.empty()) return true;
         if ((k == 0 || passages_.size() == 2) && join_passages(k == 0)) return true;

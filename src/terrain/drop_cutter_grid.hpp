@@ -35,8 +35,8 @@ class GridPyramid {
   template <class Search>
   void run(Search& search) const;
   /// Lists all triangles that may be touched over some place of the survey, of a ball or another cutter.
-  template <class Survey>
-  void list(const Survey& survey, Shortlist& shortlist) const;
+  template <class Survey, class List>
+  void list(const Survey& survey, List& list) const;
   /// Looks at one triangle.
   template <class Search>
   void touch(Search& search, Index triangle) const {
@@ -85,9 +85,9 @@ class GridPyramid {
                     Candidates<capacity>& found) const;
   template <class Search, std::size_t capacity>
   void visit(Search& search, const Reach& reach, std::size_t level, const Candidates<capacity>& found) const;
-  template <class Survey>
+  template <class Survey, class List>
   void list_node(const Survey& survey, const Reach& reach, std::size_t level, std::size_t column, std::size_t row,
-                 Shortlist& shortlist) const;
+                 List& shortlist) const;
 
   // Cells, four a row, from first_row to last_row (8 rows at most).
   struct FourCells;
@@ -100,9 +100,9 @@ class GridPyramid {
                          const Each& each) const;
   template <class Search>
   void visit_cells(Search& search, std::size_t column, std::size_t first_row, std::size_t last_row) const;
-  template <class Survey>
+  template <class Survey, class List>
   void list_cells(const Survey& survey, std::size_t column, std::size_t first_row, std::size_t last_row,
-                  Shortlist& shortlist) const;
+                  List& shortlist) const;
 
   TerrainAccess t_;
   const double* heights_;

@@ -34,8 +34,8 @@ class MeshTree {
     visit(search, levels_.size(), 0);
   }
   /// Lists all triangles that may be touched over some place of the survey, of a ball or another cutter.
-  template <class Survey>
-  void list(const Survey& survey, Shortlist& shortlist) const;
+  template <class Survey, class List>
+  void list(const Survey& survey, List& list) const;
   /// Looks at one triangle.
   template <class Search>
   void touch(Search& search, Index triangle) const {
@@ -68,8 +68,8 @@ class MeshTree {
   // Level 0 is that of the leaves, level k of levels_[k - 1].
   template <class Search>
   void visit(Search& search, std::size_t level, std::size_t index) const;
-  template <class Survey>
-  void list_node(const Survey& survey, std::size_t level, std::size_t index, Shortlist& shortlist) const;
+  template <class Survey, class List>
+  void list_node(const Survey& survey, std::size_t level, std::size_t index, List& shortlist) const;
 
   TerrainAccess t_;
   Scale scale_;

@@ -1,8 +1,26 @@
 #pragma once
 
+#include <vector>
+
 #include "terrain/drop_cutter_search.hpp"
 
 namespace krepl::drop {
+
+/// The numbers of all triangles that may hold the highest touch over some place of a rectangle, however many.
+class LongList {
+ public:
+  bool overflowed() const { return false; }
+  const std::vector<Index>& numbers() const { return numbers_; }
+  void clear() { numbers_.clear(); }
+  template <class Number>
+  void add(const FourTriangles&, unsigned lanes, const float*, const Number& number) {
+    for (; lanes != 0; lanes &= lanes - 1) numbers_.push_back(number(unsigned(__builtin_ctz(lanes))));
+  }
+  void close() {}
+
+ private:
+  std::vector<Index> numbers_;
+};
 
 /// All triangles that may hold the highest touch over some place of a rectangle: few, so that every place looks at the list
 /// instead of the hierarchy.

@@ -150,21 +150,19 @@ bool StretchSearch::list(Point from, Point to, double floor, double more, std::v
   });
 }
 
-bool StretchSearch::list_rectangle(Point low, Point high, double floor, std::vector<Part>& parts) {
+void StretchSearch::list_rectangle(Point low, Point high, double floor, std::vector<Part>& parts) {
   const Point centre{low.x / 2 + high.x / 2, low.y / 2 + high.y / 2};
   const double half_x = high.x - centre.x + 0x1p-50 * (std::abs(low.x) + std::abs(high.x));
   const double half_y = high.y - centre.y + 0x1p-50 * (std::abs(low.y) + std::abs(high.y));
   parts.clear();
-  return DropCutterAccess::with_tools(cutter_, [&](const auto& tree, auto tool) {
+  numbers_.clear();
+  DropCutterAccess::with_tools(cutter_, [&](const auto& tree, auto tool) {
     tool.place = centre;
     const double unit = tree.inverse_unit();
     auto survey = tree.survey(tool, {up(half_x * unit), up(half_y * unit), 0.f, 0.f});
     survey.raise(floor);
-    Shortlist shortlist;
-    tree.list(survey, shortlist);
-    if (shortlist.overflowed()) return false;
-    for (std::size_t i = 0; i < shortlist.size(); ++i) parts.push_back(tree.part(shortlist.number(i)));
-    return true;
+    tree.list(survey, numbers_);
+    for (const Index number : numbers_.numbers()) parts.push_back(tree.part(number));
   });
 }
 

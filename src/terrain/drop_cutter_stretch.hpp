@@ -5,6 +5,7 @@
 #include "krepl/drop_cutter.hpp"
 #include "model/terrain_window.hpp"
 #include "terrain/drop_cutter_search.hpp"
+#include "terrain/drop_cutter_shortlist.hpp"
 
 namespace krepl::drop {
 
@@ -26,8 +27,8 @@ class StretchSearch {
   /// As list(), for cutters that are no balls, with what the tool touches in the middle or at an end made `more` higher in place of all
   /// that is below that: base() is its tangent plane then, and `parts` are the triangles that may be higher than that.
   bool list(Point from, Point to, double floor, double more, std::vector<Part>& parts);
-  /// The same over a rectangle, of places over which something rests higher than `floor`.
-  bool list_rectangle(Point low, Point high, double floor, std::vector<Part>& parts);
+  /// Triangles among which are all on which the tool may rest higher than `floor` over some place of a rectangle, however many.
+  void list_rectangle(Point low, Point high, double floor, std::vector<Part>& parts);
   /// The triangle that the tool rests on over a place; false if there is none.
   bool find_touched(Point place, Part& part);
   /// All triangles within R of the stretch, however many.
@@ -60,6 +61,7 @@ class StretchSearch {
   DropCutter::Contact last_;
   Index last_triangle_ = Terrain::none;
   TerrainWindow window_;
+  LongList numbers_;
 };
 
 }  // namespace krepl::drop
