@@ -73,8 +73,8 @@ struct ParallelOptions {
   /// The tip never goes below it. Nothing given: the part's lowest place; then passes are cut only where the ball
   /// touches the part.
   std::optional<double> bottom;
-  /// Only where the surface of the control point is less steep than that, degrees, and a step-over (or the tool's radius, if that is less)
-  /// beyond; waterlines with the same angle as `steep` cut the rest. 0: everywhere.
+  /// Only where the surface of the control point is less steep than that, degrees, and a step-over
+  /// beyond, along and across; waterlines with the same angle as `steep` cut the rest. 0: everywhere.
   double shallow = 0;
   /// The axis stays within any of these polygons: passes end at the last lattice point before it, ways between cuts that would leave it
   /// are taken at the safe height. None: everywhere.

@@ -158,7 +158,7 @@ Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const Para
   if (o.scallop != 0 && !refine_passes(*drop, layout, plan, o, milled.report, context))
     return Error{ErrorCode::cancelled, "cancelled", "", ""};
   const mill::PassLimits limits{mill::Boundary(o.boundary, part->origin()), o.shallow * std::numbers::pi / 180,
-                                std::min(plan.step_over, plan.radius)};
+                                plan.step_over};
   std::vector<PassResult> results(layout.passes.size());
   kernel::Progress progress(context, results.size());
   const bool done = kernel::parallel_blocks(context, results.size(), 1, [&](std::size_t k, std::size_t) {
