@@ -8,8 +8,8 @@
 
 namespace krepl::app {
 
-/// The polygons of a vector file of any kind, as the boundary of tool paths: a polygon for each feature. Errors: those of reading
-/// networks; a feature that is a line or a point.
+/// The polygons of a vector file of any kind, as the boundary of tool paths: a polygon for each feature. Errors: those
+/// of reading networks; a feature that is a line or a point.
 Result<MillBoundary> read_boundary(const std::string& path, const Context& context);
 
 }  // namespace krepl::app

@@ -107,7 +107,8 @@ std::vector<std::vector<Point>> Boundary::inside(const std::vector<Point>& polyl
     is_open = reaches_end;
   }
   // Of a closed line the first piece goes on where the last one ends.
-  if (pieces.size() > 1 && is_open && polyline.front() == polyline.back() && pieces.front().front() == polyline.front()) {
+  if (pieces.size() > 1 && is_open && polyline.front() == polyline.back() &&
+      pieces.front().front() == polyline.front()) {
     pieces.back().insert(pieces.back().end(), pieces.front().begin() + 1, pieces.front().end());
     pieces.front() = std::move(pieces.back());
     pieces.pop_back();

@@ -16,7 +16,8 @@ class Boundary {
   Boundary(const MillBoundary& polygons, Point3 origin);
 
   bool is_everywhere() const { return polygons_.empty(); }
-  /// The stretches of a line within any of the polygons, between from and to, in their order. Time linear in the polygons' sides.
+  /// The stretches of a line within any of the polygons, between from and to, in their order. Time linear in the
+  /// polygons' sides.
   std::vector<Interval> inside(const Line& line, double from, double to) const;
   /// Whether all of the straight way is inside, but for gaps that rounding explains.
   bool contains(Point from, Point to) const;

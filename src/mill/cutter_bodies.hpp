@@ -7,11 +7,11 @@
 
 namespace krepl::mill {
 
-/// The sums of a cutter that is no ball, upside down, with each of a terrain's triangles. They are convex as the cutter is, and their
-/// heights may jump where they begin and end: where the rim of a flat cutter passes over a corner.
+/// The sums of a cutter that is no ball, upside down, with each of a terrain's triangles. They are convex as the cutter
+/// is, and their heights may jump where they begin and end: where the rim of a flat cutter passes over a corner.
 ///
-/// Over level ground a flat cutter touches everything at once. What is no more than `slack` above one triangle's body is replaced by a
-/// plane so much above that: the last of the bodies.
+/// Over level ground a flat cutter touches everything at once. What is no more than `slack` above one triangle's body
+/// is replaced by a plane so much above that: the last of the bodies.
 class CutterBodies final : public LineBodies {
  public:
   CutterBodies(const LiftedCutter& cutter, double slack)

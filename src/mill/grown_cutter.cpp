@@ -8,11 +8,16 @@ namespace krepl::mill {
 Result<Cutter> grow(const Cutter& cutter, double allowance, double room) {
   const double by = allowance + room, diameter = cutter.diameter() + 2 * by;
   switch (cutter.kind()) {
-    case Cutter::Kind::ball: return Cutter::ball(diameter);
-    case Cutter::Kind::flat: return allowance > 0 ? Cutter::bull_nose(diameter, by) : Cutter::flat(diameter);
-    case Cutter::Kind::bull_nose: return Cutter::bull_nose(diameter, cutter.corner_radius() + by);
-    case Cutter::Kind::cone: return by > 0 ? Cutter::taper(diameter, cutter.angle(), by) : cutter;
-    case Cutter::Kind::taper: break;
+    case Cutter::Kind::ball:
+      return Cutter::ball(diameter);
+    case Cutter::Kind::flat:
+      return allowance > 0 ? Cutter::bull_nose(diameter, by) : Cutter::flat(diameter);
+    case Cutter::Kind::bull_nose:
+      return Cutter::bull_nose(diameter, cutter.corner_radius() + by);
+    case Cutter::Kind::cone:
+      return by > 0 ? Cutter::taper(diameter, cutter.angle(), by) : cutter;
+    case Cutter::Kind::taper:
+      break;
   }
   return Cutter::taper(diameter, cutter.angle(), cutter.corner_radius() + by);
 }

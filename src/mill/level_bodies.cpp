@@ -18,11 +18,16 @@ constexpr int most_steps = 200;
 Cutter shrink(const Cutter& cutter, double radius) {
   const auto smaller = [&]() -> Result<Cutter> {
     switch (cutter.kind()) {
-      case Cutter::Kind::flat: return Cutter::flat(2 * radius);
-      case Cutter::Kind::bull_nose: return Cutter::bull_nose(2 * radius, std::min(cutter.corner_radius(), radius));
-      case Cutter::Kind::cone: return Cutter::cone(2 * radius, cutter.angle());
-      case Cutter::Kind::taper: return Cutter::taper(2 * radius, cutter.angle(), cutter.corner_radius());
-      case Cutter::Kind::ball: break;
+      case Cutter::Kind::flat:
+        return Cutter::flat(2 * radius);
+      case Cutter::Kind::bull_nose:
+        return Cutter::bull_nose(2 * radius, std::min(cutter.corner_radius(), radius));
+      case Cutter::Kind::cone:
+        return Cutter::cone(2 * radius, cutter.angle());
+      case Cutter::Kind::taper:
+        return Cutter::taper(2 * radius, cutter.angle(), cutter.corner_radius());
+      case Cutter::Kind::ball:
+        break;
     }
     return Cutter::ball(2 * radius);
   }();

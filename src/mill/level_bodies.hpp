@@ -9,12 +9,14 @@
 
 namespace krepl::mill {
 
-/// The places of the plane over which a cutter that is no ball rests higher than a level: a union of convex sets, one for each triangle,
-/// as the sum of a triangle and a convex cutter is convex. A line meets each of them in one interval, whose ends are found by closing in on
-/// them from both sides: a concave function is above its chords and below its tangents. Not for use by several threads.
+/// The places of the plane over which a cutter that is no ball rests higher than a level: a union of convex sets, one
+/// for each triangle, as the sum of a triangle and a convex cutter is convex. A line meets each of them in one
+/// interval, whose ends are found by closing in on them from both sides: a concave function is above its chords and
+/// below its tangents. Not for use by several threads.
 class LevelBodies {
  public:
-  /// `level`: of the control point, relative to the part's origin; `grain`: gaps and intervals shorter than that count as none.
+  /// `level`: of the control point, relative to the part's origin; `grain`: gaps and intervals shorter than that count
+  /// as none.
   LevelBodies(const LiftedCutter& cutter, double level, double grain);
 
   /// Whether the cutter is known to rest higher everywhere over a square: on one triangle.
@@ -23,13 +25,13 @@ class LevelBodies {
   void list(Point low, Point high) { search_.list_rectangle(low, high, level_, parts_); }
   std::size_t size() const { return parts_.size(); }
 
-  /// The parts of a line between a and b over which it does not rest higher on any triangle of the list, in their order.
+  /// The parts of a line between a and b over which it does not rest higher on any triangle of the list, in their
+  /// order.
   void free_parts(const Line& line, double a, double b, std::vector<Interval>& free);
   bool is_free(const Line& line, double a, double b);
   bool is_covered(const Line& line, double a, double b);
 
  private:
-  struct Side;
   Touch touch(std::size_t part, const Line& line, double t) const;
   double end_of(std::size_t part, const Line& line, double inside, double outside) const;
   Interval interval_within(std::size_t part, const Line& line, double a, double b) const;
@@ -38,7 +40,8 @@ class LevelBodies {
   bool is_covered_by(const drop::Part& part, Point low, Point high) const;
 
   drop::StretchSearch search_;
-  /// What rests on a triangle nearer to its axis covers more: cutters of less radius by half a diagonal of squares, by their size.
+  /// What rests on a triangle nearer to its axis covers more: cutters of less radius by half a diagonal of squares, by
+  /// their size.
   struct Inner {
     DropCutter drop;
     drop::StretchSearch search;

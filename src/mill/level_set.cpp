@@ -101,9 +101,7 @@ class Tracer {
       else if (begins != state)
         return false;
       state = backwards ? at_a : at_b;
-      const auto pass = [&](double t, bool out) {
-        passages_.push_back({out, {vertical, at, bin(t)}, line.at(t)});
-      };
+      const auto pass = [&](double t, bool out) { passages_.push_back({out, {vertical, at, bin(t)}, line.at(t)}); };
       for (std::size_t n = 0; n < free_.size(); ++n) {
         const Interval& f = free_[backwards ? free_.size() - 1 - n : n];
         if (backwards ? f.high < b : f.low > a) pass(backwards ? f.high : f.low, true);
@@ -113,7 +111,8 @@ class Tracer {
     return state == first_state;
   }
 
-  /// Each way out with the next way in, so that what is higher is joined where it can be. False if the border is not near.
+  /// Each way out with the next way in, so that what is higher is joined where it can be. False if the border is not
+  /// near.
   bool join_passages(bool as_they_are) {
     const std::size_t count = passages_.size();
     const std::size_t before = stretches.size();

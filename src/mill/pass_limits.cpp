@@ -44,7 +44,8 @@ std::vector<PassRange> limit_pass(const LiftedCutter& cutter, const PassLayout& 
   if (limits.boundary.is_everywhere()) {
     within.push_back({pass.first, pass.last});
   } else {
-    for (const Interval& i : limits.boundary.inside(line, double(pass.first) * layout.step, double(pass.last) * layout.step))
+    for (const Interval& i :
+         limits.boundary.inside(line, double(pass.first) * layout.step, double(pass.last) * layout.step))
       within.push_back({std::int64_t(std::ceil(i.low / layout.step)), std::int64_t(std::floor(i.high / layout.step))});
   }
   std::vector<PassRange> ranges;

@@ -19,8 +19,8 @@ struct PassLimits {
   double overlap = 0;  ///< how far from there passes go on, along and across
 };
 
-/// The parts of a pass that are cut, in their order, each of two places at least. Steepness is looked at in places a quarter of the
-/// overlap apart along the pass, and half of it across.
+/// The parts of a pass that are cut, in their order, each of two places at least. Steepness is looked at in places a
+/// quarter of the overlap apart along the pass, and half of it across.
 std::vector<PassRange> limit_pass(const LiftedCutter& cutter, const PassLayout& layout, const PassLayout::Pass& pass,
                                   const PassLimits& limits);
 

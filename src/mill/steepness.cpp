@@ -10,7 +10,8 @@ double Steepness::at(Point place) {
   if (cutter_.cutter().kind() == Cutter::Kind::ball) {
     const DropCutter::Contact contact = cutter_.at(place);
     if (!contact.touches()) return 0;
-    return std::atan2(std::hypot(place.x - contact.point.x, place.y - contact.point.y), contact.height - contact.point.z);
+    return std::atan2(std::hypot(place.x - contact.point.x, place.y - contact.point.y),
+                      contact.height - contact.point.z);
   }
   drop::Part part;
   if (!search_.find_touched(place, part)) return 0;

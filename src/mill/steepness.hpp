@@ -5,7 +5,8 @@
 
 namespace krepl::mill {
 
-/// How steep the surface of a cutter's control point is. Keeps what was touched last: one for each thread; the cutter must outlive it.
+/// How steep the surface of a cutter's control point is. Keeps what was touched last: one for each thread; the cutter
+/// must outlive it.
 class Steepness {
  public:
   explicit Steepness(const DropCutter& cutter) : cutter_(cutter), search_(cutter) {}

@@ -1,8 +1,10 @@
-// With q the touched point and d = q - p in the plane, r = |d|, the height z(q) - f(r) changes with the place p by f'(r) d / r, as
-// moving q along its feature changes nothing to first order. At the rim of the tool f has no slope. There the feature says it:
+// With q the touched point and d = q - p in the plane, r = |d|, the height z(q) - f(r) changes with the place p by
+// f'(r) d / r, as moving q along its feature changes nothing to first order. At the rim of the tool f has no slope.
+// There the feature says it:
 //
 //   face    the tool moves along with the plane: its slope
-//   edge    of slope s, q is x further uphill than the foot of the axis, x = sqrt(R^2 - h^2): s x changes by s d / x, which is
+//   edge    of slope s, q is x further uphill than the foot of the axis, x = sqrt(R^2 - h^2): s x changes by s d / x,
+//   which is
 //           f'(r) d / r as well where there is a slope, because of s = f'(r) x / r
 //   vertex  only on the border of what is within reach, where any slope of the tool will do
 #include "terrain/drop_cutter_part.hpp"
@@ -52,8 +54,7 @@ PartTouch touch_part(const Part& p, const ProfileTool& tool) {
     const unsigned next = i == 2 ? 0 : i + 1;
     const unsigned a = p.vertex[i] < p.vertex[next] ? i : next, b = a ^ i ^ next;
     const EdgeTouch edge = touch_edge(p.corner[a], p.corner[b], tool);
-    if (edge.height > best.height)
-      best = {edge.height, slope_at_edge(p.corner[a], p.corner[b], edge.along, tool)};
+    if (edge.height > best.height) best = {edge.height, slope_at_edge(p.corner[a], p.corner[b], edge.along, tool)};
     if (edge.ends & 1) corners |= 1u << a;
     if (edge.ends & 2) corners |= 1u << b;
   }

@@ -36,7 +36,8 @@ double greatest(double low, double high, const Function& f, double* where = null
 ToolDepth::ToolDepth(const Solid& solid, const Cutter& cutter)
     : solid_(solid),
       cutter_(cutter),
-      steepest_(cutter.angle() > 0 ? std::numbers::pi / 2 - cutter.angle() * std::numbers::pi / 360 : std::numbers::pi / 2) {}
+      steepest_(cutter.angle() > 0 ? std::numbers::pi / 2 - cutter.angle() * std::numbers::pi / 360
+                                   : std::numbers::pi / 2) {}
 
 /// Of a side within reach of the axis, the greatest height above the tool's lower side.
 double ToolDepth::above_side(Space<double> a, Space<double> b, Space<double> tip) const {
@@ -53,15 +54,18 @@ double ToolDepth::above_side(Space<double> a, Space<double> b, Space<double> tip
   return low <= high ? greatest(low, high, value) : lowest;
 }
 
-/// Of the plane's highest point above the tool, straight uphill from the axis, if it is within the triangle: else a side has it.
+/// Of the plane's highest point above the tool, straight uphill from the axis, if it is within the triangle: else a
+/// side has it.
 double ToolDepth::above_face(const std::array<Space<double>, 3>& c, Space<double> tip) const {
   const double ux = c[1].x - c[0].x, uy = c[1].y - c[0].y, uz = c[1].z - c[0].z;
   const double vx = c[2].x - c[0].x, vy = c[2].y - c[0].y, vz = c[2].z - c[0].z, area = ux * vy - uy * vx;
   if (area == 0) return lowest;
   const double gx = (uz * vy - uy * vz) / area, gy = (ux * vz - uz * vx) / area, slope = std::hypot(gx, gy);
   double r = 0;
-  greatest(0, cutter_.radius(), [&](double at) { return slope * at - cutter_.height(at); }, &r);
-  const double ex = tip.x - c[0].x + (slope > 0 ? gx / slope * r : 0), ey = tip.y - c[0].y + (slope > 0 ? gy / slope * r : 0);
+  greatest(
+      0, cutter_.radius(), [&](double at) { return slope * at - cutter_.height(at); }, &r);
+  const double ex = tip.x - c[0].x + (slope > 0 ? gx / slope * r : 0),
+               ey = tip.y - c[0].y + (slope > 0 ? gy / slope * r : 0);
   const double v = (ex * vy - ey * vx) / area, w = (ux * ey - uy * ex) / area;
   if (v < 0 || w < 0 || v + w > 1) return lowest;
   return c[0].z + v * uz + w * vz - tip.z - cutter_.height(r);
@@ -73,8 +77,8 @@ double ToolDepth::above(std::size_t triangle, Space<double> tip) const {
       {above_face(c, tip), above_side(c[0], c[1], tip), above_side(c[1], c[2], tip), above_side(c[2], c[0], tip)});
 }
 
-/// The least distance of a point, relative to the tip, to the tangent planes of the tool: of the shank, and of the corner at all its
-/// angles, the last of which is that of the flank and the first that of the flat.
+/// The least distance of a point, relative to the tip, to the tangent planes of the tool: of the shank, and of the
+/// corner at all its angles, the last of which is that of the flank and the first that of the flat.
 double ToolDepth::depth_of(Space<double> q) const {
   const double r = std::hypot(q.x, q.y), corner = cutter_.corner_radius();
   const double out = r - cutter_.flat_radius(), down = corner - q.z;
@@ -105,7 +109,8 @@ double ToolDepth::at(Space<double> tip, double tolerance) const {
   solid_.tree().for_each_near(box, [&](std::uint32_t t) {
     double x0 = solid_.corners(t)[0].x, x1 = x0, y0 = solid_.corners(t)[0].y, y1 = y0, top = lowest;
     for (const Space<double>& p : solid_.corners(t))
-      x0 = std::min(x0, p.x), x1 = std::max(x1, p.x), y0 = std::min(y0, p.y), y1 = std::max(y1, p.y), top = std::max(top, p.z);
+      x0 = std::min(x0, p.x), x1 = std::max(x1, p.x), y0 = std::min(y0, p.y), y1 = std::max(y1, p.y),
+      top = std::max(top, p.z);
     const double dx = std::max({x0 - tip.x, tip.x - x1, 0.0}), dy = std::max({y0 - tip.y, tip.y - y1, 0.0});
     const double off = std::hypot(dx, dy);
     if (off > radius || top - cutter_.height(off) <= tip.z + tolerance) return;

@@ -5,14 +5,14 @@
 
 namespace krepl::verify {
 
-/// How deep a part is in a cutter that is no ball, by searches over each triangle: shares nothing with the drop cutter but the
-/// cutter's numbers.
+/// How deep a part is in a cutter that is no ball, by searches over each triangle: shares nothing with the drop cutter
+/// but the cutter's numbers.
 class ToolDepth {
  public:
   ToolDepth(const Solid& solid, const Cutter& cutter);
 
-  /// With the tip at a place relative to the solid's origin: the greatest distance of a point of the triangles from the outside of the
-  /// tool, whose shank has no end; 0 if none is above the tool's lower side by more than `tolerance`.
+  /// With the tip at a place relative to the solid's origin: the greatest distance of a point of the triangles from the
+  /// outside of the tool, whose shank has no end; 0 if none is above the tool's lower side by more than `tolerance`.
   double at(Space<double> tip, double tolerance) const;
 
  private:

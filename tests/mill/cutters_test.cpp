@@ -1,5 +1,5 @@
-// Parallel passes of flat, bull-nose, conical and tapered cutters by brute force: never in the part, never farther from it than the
-// tolerance.
+// Parallel passes of flat, bull-nose, conical and tapered cutters by brute force: never in the part, never farther from
+// it than the tolerance.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -35,12 +35,11 @@ void expect_safe(const SmallTerrain& c, const ParallelOptions& o, const std::str
   const double floor = o.bottom ? *o.bottom - part->origin().z : part->lowest().z + o.tool.allowance;
   const TipHeights heights(part, cutter, o.tool.allowance, floor);
   const double feed = o.motion.feed, step = std::max(cutter.radius() / 4, scale / 60);
-  const TipCheck check =
-      check_tip(*part, heights, milled->path, o.accuracy.tolerance + o.accuracy.arc_error, step, 10,
-                [feed](const Move& m) { return m.kind != MoveKind::rapid && m.feed == feed; });
+  const TipCheck check = check_tip(*part, heights, milled->path, o.accuracy.tolerance + o.accuracy.arc_error, step, 10,
+                                   [feed](const Move& m) { return m.kind != MoveKind::rapid && m.feed == feed; });
   EXPECT_GT(check.places, 20u) << what;
-  EXPECT_LE(check.deepest, 1e-9 * scale) << what << " gouges at " << check.deepest_at.x << " " << check.deepest_at.y << " "
-                                         << check.deepest_at.z << ", angle " << o.angle << "\n"
+  EXPECT_LE(check.deepest, 1e-9 * scale) << what << " gouges at " << check.deepest_at.x << " " << check.deepest_at.y
+                                         << " " << check.deepest_at.z << ", angle " << o.angle << "\n"
                                          << c;
   EXPECT_EQ(check.far, 0u) << what << " is too far above at " << check.far_at.x << " " << check.far_at.y << " "
                            << check.far_at.z << ", angle " << o.angle << "\n"
@@ -48,7 +47,8 @@ void expect_safe(const SmallTerrain& c, const ParallelOptions& o, const std::str
   const double unit = o.accuracy.unit;
   double worst = 0;
   for (const Move& m : milled->path.moves)
-    for (const double x : {m.end.x, m.end.y, m.end.z}) worst = std::max(worst, std::abs(x / unit - std::round(x / unit)));
+    for (const double x : {m.end.x, m.end.y, m.end.z})
+      worst = std::max(worst, std::abs(x / unit - std::round(x / unit)));
   EXPECT_LE(worst, 1e-4) << what;
 }
 
@@ -79,23 +79,24 @@ WaterlineOptions waterlines_for(const Cutter& cutter, double step_down) {
 }
 
 /// Cuts never come into the part, and nowhere farther from it than the tolerance; the share of moves that are lifted.
-void expect_beside(const std::shared_ptr<const Terrain>& part, const WaterlineOptions& o, const MilledPath& milled, double step,
-                   const std::string& what) {
+void expect_beside(const std::shared_ptr<const Terrain>& part, const WaterlineOptions& o, const MilledPath& milled,
+                   double step, const std::string& what) {
   const double scale = std::max(part->extent(), o.tool.cutter->radius());
   const TipHeights heights(part, *o.tool.cutter, o.tool.allowance, -1e300);
-  const TipCheck check = check_tip(*part, heights, milled.path, o.accuracy.tolerance, step, 10, [&](const Move& m) {
-    return m.kind != MoveKind::rapid && m.feed == o.motion.feed;
-  });
+  const TipCheck check = check_tip(*part, heights, milled.path, o.accuracy.tolerance, step, 10,
+                                   [&](const Move& m) { return m.kind != MoveKind::rapid && m.feed == o.motion.feed; });
   EXPECT_GT(check.places, 20u) << what;
-  EXPECT_LE(check.deepest, 1e-9 * scale) << what << " gouges at " << check.deepest_at.x << " " << check.deepest_at.y << " "
-                                         << check.deepest_at.z;
-  EXPECT_EQ(check.far, 0u) << what << " is too far at " << check.far_at.x << " " << check.far_at.y << " " << check.far_at.z;
+  EXPECT_LE(check.deepest, 1e-9 * scale) << what << " gouges at " << check.deepest_at.x << " " << check.deepest_at.y
+                                         << " " << check.deepest_at.z;
+  EXPECT_EQ(check.far, 0u) << what << " is too far at " << check.far_at.x << " " << check.far_at.y << " "
+                           << check.far_at.z;
   EXPECT_LE(50 * milled.report.lifted_moves, milled.report.lines + milled.report.arcs) << what;
 }
 
-/// Where lines across the part pass from free places to others at a level, by steps of the drop cutter and halving: near the path.
-std::size_t expect_all_around(const std::shared_ptr<const Terrain>& part, const WaterlineOptions& o, const MilledPath& milled,
-                              const std::string& what) {
+/// Where lines across the part pass from free places to others at a level, by steps of the drop cutter and halving:
+/// near the path.
+std::size_t expect_all_around(const std::shared_ptr<const Terrain>& part, const WaterlineOptions& o,
+                              const MilledPath& milled, const std::string& what) {
   const TipHeights heights(part, *o.tool.cutter, o.tool.allowance, -1e300);
   const Point3 origin = part->origin(), low = part->lowest(), high = part->highest();
   const double radius = o.tool.cutter->radius(), step = radius / 8;
@@ -116,7 +117,8 @@ std::size_t expect_all_around(const std::shared_ptr<const Terrain>& part, const 
         double nearest = 1e300;
         for (const Point p : on_level) nearest = std::min(nearest, std::hypot(p.x - a, p.y - y));
         // A wall is one tolerance off; the same in height is farther off on gentle ground: those places are left out.
-        const double before = heights.at({a - o.accuracy.tolerance, y}), after = heights.at({a + o.accuracy.tolerance, y});
+        const double before = heights.at({a - o.accuracy.tolerance, y}),
+                     after = heights.at({a + o.accuracy.tolerance, y});
         if (std::abs(before - after) < 4 * o.accuracy.tolerance) continue;
         ++found;
         EXPECT_LE(nearest, 6 * o.accuracy.tolerance) << what << " at " << a << " " << y << ", level " << level;
@@ -181,7 +183,8 @@ TEST(Cutters, WaterlinesOfAFlatCutterAreAtItsRadiusFromWalls) {
   EXPECT_LE(milled->report.lines + milled->report.arcs, 80u);
   walk(milled->path, 0.1, 4, [&](Point3 p, const Move& m) {
     if (m.kind == MoveKind::rapid || m.feed != o.motion.feed) return;
-    const double dx = std::max({8 - p.x, p.x - 12, 0.0}), dy = std::max({8 - p.y, p.y - 12, 0.0}), off = std::hypot(dx, dy);
+    const double dx = std::max({8 - p.x, p.x - 12, 0.0}), dy = std::max({8 - p.y, p.y - 12, 0.0}),
+                 off = std::hypot(dx, dy);
     EXPECT_GE(off, 1.5 - 1e-9);
     EXPECT_LE(off, 1.5 + o.accuracy.tolerance);
   });
@@ -203,7 +206,8 @@ TEST(Cutters, AreTheSameForAnyNumberOfThreads) {
       ASSERT_TRUE(a->path.moves[k].end == b->path.moves[k].end && a->path.moves[k].centre == b->path.moves[k].centre);
   };
   const Cutter bull = *Cutter::bull_nose(2, 0.3);
-  expect_same(mill_waterline(part, waterlines_for(bull, 0.8), one), mill_waterline(part, waterlines_for(bull, 0.8), three));
+  expect_same(mill_waterline(part, waterlines_for(bull, 0.8), one),
+              mill_waterline(part, waterlines_for(bull, 0.8), three));
   expect_same(mill_parallel(part, options_for(bull), one), mill_parallel(part, options_for(bull), three));
 }
 
@@ -220,7 +224,8 @@ TEST(Cutters, ThatAStrategyCannotTakeAreErrors) {
   scallop.step_over = 0, scallop.scallop = 0.1;
   ParallelOptions centre = options_for(flat);
   centre.accuracy.control_point = ControlPoint::centre;
-  for (const auto& milled : {mill_rough(part, rough), mill_pencil(part, pencil), mill_parallel(part, scallop), mill_parallel(part, centre)}) {
+  for (const auto& milled : {mill_rough(part, rough), mill_pencil(part, pencil), mill_parallel(part, scallop),
+                             mill_parallel(part, centre)}) {
     ASSERT_FALSE(milled);
     EXPECT_EQ(milled.error().code, ErrorCode::usage);
     EXPECT_NE(milled.error().text().find("flat:1"), std::string::npos) << milled.error().text();

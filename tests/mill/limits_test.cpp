@@ -1,4 +1,5 @@
-// Passes within a boundary and on shallow ground only: nothing outside, and nothing left between them and waterlines on the rest.
+// Passes within a boundary and on shallow ground only: nothing outside, and nothing left between them and waterlines on
+// the rest.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -89,7 +90,8 @@ TEST(Limits, ShallowPassesAndSteepWaterlinesLeaveNothingBetween) {
 /// A square with a hole, and a triangle that overlaps it.
 MillBoundary boundary() {
   MillBoundary b;
-  b.polygons.push_back({{{3.03, 3.07}, {15.2, 3.07}, {15.2, 14.4}, {3.03, 14.4}}, {{6, 7}, {8, 7}, {8, 9.5}, {6, 9.5}}});
+  b.polygons.push_back(
+      {{{3.03, 3.07}, {15.2, 3.07}, {15.2, 14.4}, {3.03, 14.4}}, {{6, 7}, {8, 7}, {8, 9.5}, {6, 9.5}}});
   b.polygons.push_back({{{12, 12}, {19, 13}, {14, 18}}});
   return b;
 }
