@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "boundary_file.hpp"
 #include "krepl/cutter.hpp"
 #include "krepl/mill.hpp"
 #include "output/gcode_file.hpp"
@@ -22,6 +23,7 @@ struct MillVerbOptions {
   TerrainOptions terrain;
   std::string output, tool, strategy = "parallel", direction, post = "linuxcnc", unit = "mm",
                             control_point = "tip";
+  std::string boundary, shallow;
   std::string step_down, ramp_angle, stock_top, stock_margin, steep, valley_angle, shortest;
   std::string step_over, scallop, tolerance, allowance, angle, bottom, safe_height, clearance, feed, plunge_feed,
       spindle;
@@ -63,11 +65,14 @@ Status take(const char* option, const std::string& text, double& value, bool pos
 Status take_tool(const std::string& text, MillPlan& plan) {
   const Result<Cutter> cutter = Cutter::parse(text);
   if (!cutter) return cutter.error();
-  if (cutter->kind() != Cutter::Kind::ball)
-    return usage(fmt::format("paths of tool '{}' are not made, only those of ball-nose cutters", text), "give --tool ball:DIAMETER");
+  const bool takes_all = plan.strategy == Strategy::parallel || plan.strategy == Strategy::waterline;
+  if (cutter->kind() != Cutter::Kind::ball && !takes_all)
+    return usage(fmt::format("paths of tool '{}' are made by strategies parallel and waterline only", text),
+                 "use one of them, or --tool ball:DIAMETER");
   plan.parallel.tool.radius = cutter->radius();
+  if (cutter->kind() != Cutter::Kind::ball) plan.parallel.tool.cutter = *cutter, plan.gcode.has_centre = false;
   plan.gcode.tool_diameter = cutter->diameter();
-  plan.gcode.tool_name = "ball-nose";
+  plan.gcode.tool_name = cutter->kind() == Cutter::Kind::ball ? "ball-nose" : cutter->text();
   return std::monostate{};
 }
 
@@ -103,7 +108,8 @@ Status take_post(const MillVerbOptions& o, MillPlan& plan) {
   a.arcs = !o.no_arcs;
   // GRBL cuts arcs as chords that are within 0.002 mm ($12) of them.
   if (plan.gcode.post == GcodePost::grbl) a.arc_error = plan.gcode.inches ? 0.002 / 25.4 : 0.002;
-  if (a.control_point == ControlPoint::tip) plan.gcode.below_centre = plan.parallel.tool.radius;
+  if (a.control_point == ControlPoint::tip && !plan.parallel.tool.cutter)
+    plan.gcode.below_centre = plan.parallel.tool.radius;
   a.tolerance = plan.gcode.inches ? 0.0004 : 0.01;
   return take("--tolerance", o.tolerance, a.tolerance);
 }
@@ -138,6 +144,8 @@ Status check_meaning(const MillVerbOptions& o, Strategy strategy) {
                               {"--direction", o.direction, parallel || waterline, "parallel, waterline"},
                               {"--step-down", o.step_down, rough || waterline, "rough, waterline"},
                               {"--steep", o.steep, waterline, "waterline"},
+                              {"--shallow", o.shallow, parallel, "parallel"},
+                              {"--boundary", o.boundary, parallel || waterline, "parallel, waterline"},
                               {"--valley-angle", o.valley_angle, pencil, "pencil"},
                               {"--shortest", o.shortest, pencil, "pencil"},
                               {"--bottom", o.bottom, !pencil, "parallel, rough, waterline"},
@@ -187,6 +195,7 @@ Status take_passes(const MillVerbOptions& o, MillPlan& plan) {
     return usage("neither --step-over nor --scallop is given", "give one of them");
   if (p.step_over != 0 && p.scallop != 0) return usage("both --step-over and --scallop are given", "give one of them");
   if (Status s = take("--angle", o.angle, p.angle, false); !s) return s;
+  if (Status s = take("--shallow", o.shallow, p.shallow); !s) return s;
   if (Status s = take("--allowance", o.allowance, p.tool.allowance); !s) return s;
   double bottom = 0;
   if (Status s = take("--bottom", o.bottom, bottom, false); !s) return s;
@@ -278,11 +287,19 @@ int run_mill(const MillVerbOptions& options, Session& session) {
   const Stopwatch total;
   Result<MillPlan> plan = make_plan(options);
   if (!plan) return session.fail("", plan.error());
-  if (Status target = check_target(options.output, {options.terrain.request.path}); !target)
+  if (Status target = options.boundary.empty()
+                          ? check_target(options.output, {options.terrain.request.path})
+                          : check_target(options.output, {options.terrain.request.path, options.boundary});
+      !target)
     return session.fail(options.output, target.error());
   const Result<input::TerrainFile> file = input::read_terrain(plan->request, session.context("reading"));
   if (!file) return session.fail(options.terrain.name(), file.error());
   tell_terrain(*file, options.terrain.name(), total.seconds(), session);
+  if (!options.boundary.empty()) {
+    const Result<MillBoundary> boundary = read_boundary(options.boundary, session.context("reading"));
+    if (!boundary) return session.fail(options.boundary, boundary.error());
+    plan->parallel.boundary = plan->waterline.boundary = *boundary;
+  }
   const Stopwatch computing;
   const Context context = session.context("milling");
   const Result<MilledPath> milled = mill_part(file->terrain, *plan, context);
@@ -297,7 +314,7 @@ int run_mill(const MillVerbOptions& options, Session& session) {
 }
 
 void add_path_options(CLI::App& verb, MillVerbOptions& o) {
-  verb.add_option("--tool", o.tool, "Cutter: ball:DIAMETER")->required()->type_name("KIND:SIZE");
+  verb.add_option("--tool", o.tool, "Cutter: ball:D; for parallel and waterline also flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE, taper:D:ANGLE:TIP_RADIUS")->required()->type_name("KIND:SIZE");
   verb.add_option("--strategy", o.strategy,
                   "parallel (default): passes in vertical planes; rough: out of a block, level by level; waterline: around the "
                   "part, level by level; pencil: along the valleys and the feet of walls")
@@ -318,6 +335,12 @@ void add_path_options(CLI::App& verb, MillVerbOptions& o) {
   verb.add_option("--step-down", o.step_down, "rough, waterline: greatest distance of levels")->type_name("LENGTH");
   verb.add_option("--steep", o.steep, "waterline: only where the surface is at least so steep (default: everywhere)")
       ->type_name("DEGREES");
+  verb.add_option("--shallow", o.shallow,
+                  "parallel: only where the surface is less steep, and a step-over beyond (default: everywhere)")
+      ->type_name("DEGREES");
+  verb.add_option("--boundary", o.boundary,
+                  "parallel, waterline: the tool's axis stays within the polygons of this vector file")
+      ->type_name("FILE");
   verb.add_option("--valley-angle", o.valley_angle,
                   "pencil: least angle between the normals of a valley's sides (default: 20)")
       ->type_name("DEGREES");

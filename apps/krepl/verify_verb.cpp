@@ -240,19 +240,20 @@ int verify_surface(const VerifyOptions& options, Session& session) {
   return 0;
 }
 
-/// The ball of --tool or --radius, and how far its centre is above the points of the path.
+/// The tool of --tool or the ball of --radius, and how far its centre is above the points of the path.
 Status path_options(const VerifyOptions& options, verify::PathCheckOptions& check) {
   if (options.tool.empty() == options.radius.empty())
-    return Error{ErrorCode::usage, "a tool path does not tell its tool", "", "give --tool ball:D"};
+    return Error{ErrorCode::usage, "a tool path does not tell its tool", "", "give --tool, as ball:D or flat:D"};
   if (!options.control_point.empty() && options.control_point != "tip" && options.control_point != "centre")
     return Error{ErrorCode::usage, "--control-point '" + options.control_point + "' is unknown", "",
                  "give tip or centre"};
   if (!options.tool.empty()) {
     const auto cutter = Cutter::parse(options.tool);
     if (!cutter) return cutter.error();
-    if (cutter->kind() != Cutter::Kind::ball)
-      return Error{ErrorCode::usage, "--tool '" + options.tool + "' is no ball", "", "check it by krepl simulate"};
     check.radius = cutter->radius();
+    if (cutter->kind() != Cutter::Kind::ball) check.cutter = *cutter;
+    if (check.cutter && options.control_point == "centre")
+      return Error{ErrorCode::usage, "tool '" + options.tool + "' has no centre", "", "give --control-point tip"};
   } else {
     const auto radius = parse_radius(options.radius);
     if (!radius) return radius.error();
@@ -263,14 +264,15 @@ Status path_options(const VerifyOptions& options, verify::PathCheckOptions& chec
     if (!parsed) return parsed.error();
     check.max_error = *parsed;
   }
-  check.lift = options.control_point == "centre" ? 0 : check.radius;
+  check.lift = options.control_point == "centre" || check.cutter ? 0 : check.radius;
   check.samples = options.samples;
   return std::monostate{};
 }
 
-void print(Session& session, const verify::PathReport& report) {
-  session.summary(fmt::format("tool path of a ball of radius {}: {} moves, length {:.9g}, against {} triangles",
-                              report.radius, report.moves, report.length, report.triangles));
+void print(Session& session, const verify::PathReport& report, const std::optional<Cutter>& cutter) {
+  session.summary(fmt::format("tool path of {}: {} moves, length {:.9g}, against {} triangles",
+                              cutter ? cutter->text() : fmt::format("a ball of radius {}", report.radius), report.moves,
+                              report.length, report.triangles));
   session.summary(
       fmt::format("S {:.6g}, tolerance {:.2g}, a place every {:.3g}", report.scale, report.tolerance, report.step));
   print_checks(session, report.checks);
@@ -294,7 +296,7 @@ int verify_path(const VerifyOptions& options, Session& session) {
   auto report = verify::check_path(path->path, *part->terrain, check, session.context("checking"));
   session.finish_progress();
   if (!report) return session.fail(options.result, report.error());
-  print(session, *report);
+  print(session, *report, check.cutter);
   if (!report->ok()) return session.fail(options.result, violation("free path", check.radius, report->checks));
   session.summary("sound: every check passed");
   return 0;
@@ -353,7 +355,7 @@ void add_verify_verb(CLI::App& program, Session& session) {
   verb->add_option("--max-error", options->max_error,
                    "Deviation allowed to a format without arcs, or depth to a tool path (default: none)")
       ->type_name("E");
-  verb->add_option("--tool", options->tool, "Tool paths: ball:D")->type_name("TOOL");
+  verb->add_option("--tool", options->tool, "Tool paths: ball:D, flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE, taper:D:ANGLE:TIP_RADIUS")->type_name("TOOL");
   verb->add_option("--control-point", options->control_point,
                    "Tool paths: what Z is the height of, tip (default) or centre")
       ->type_name("NAME");

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "krepl/context.hpp"
+#include "krepl/cutter.hpp"
 #include "krepl/error.hpp"
 #include "krepl/terrain.hpp"
 #include "krepl/tool_path.hpp"
@@ -14,23 +16,26 @@ namespace krepl {
 /// Which place of the tool the numbers of a post's Z mean.
 enum class ControlPoint { tip, centre };
 
-/// A ball-nose cutter and what is common to all strategies. Lengths are in the unit of the part's coordinates.
+/// The cutter and what is common to all strategies. Lengths are in the unit of the part's coordinates.
 struct MillTool {
-  double radius = 0;     ///< of the ball: finite and positive
+  double radius = 0;     ///< of a ball-nose cutter: finite and positive
   double allowance = 0;  ///< stock left everywhere, measured normal to the surface: 0 or more
+  /// Another cutter than a ball, in place of `radius`, for parallel passes and waterlines; other strategies refuse it. The rims of
+  /// cones and tapers leave up to 1 / cos(angle / 4) times the allowance.
+  std::optional<Cutter> cutter;
 };
 
 /// How exactly a path follows its surface, and where its numbers come to lie.
 ///
-/// The path never cuts into the part (grown by the allowance): it stays above the sum of the part and the ball, and
+/// The path never cuts into the part (grown by the allowance): it stays above the sum of the part and the cutter (upside down), and
 /// comes nowhere farther above it than the tolerance, measured normal to it. Between the places where heights are
 /// computed that is proven by bounds, not sampled. Ends of moves and centres of arcs are multiples of `unit`, as a post
-/// will write them, so that nothing is rounded afterwards; this takes 5.5 units and an eighth of the tolerance, up to a
-/// quarter more for passes that are not along x or y.
+/// will write them, so that nothing is rounded afterwards; this takes 5.5 units (6.5 for
+/// cutters that are no balls) and an eighth of the tolerance, up to a quarter more for passes that are not along x or y.
 struct MillAccuracy {
   double tolerance = 0.01;  ///< at least 16 units
   double unit = 1e-4;       ///< last decimal of the numbers; at least 2^-34 S, S the largest of extent and radius
-  ControlPoint control_point = ControlPoint::tip;  ///< of which Z is a multiple of the unit
+  ControlPoint control_point = ControlPoint::tip;  ///< of which Z is a multiple of the unit; of other cutters than balls the tip
   bool arcs = true;                                ///< arcs in planes along x or y, of waterlines in level ones
   /// How far inside of its arcs a controller's chords may be; arcs stay so far above the surface (GRBL: 0.002 mm).
   double arc_error = 0;
@@ -46,13 +51,19 @@ struct MillMotion {
   double clearance = -1;  ///< of rapid links above what is below them; negative: half a radius
 };
 
+/// Polygons of the plane, in the part's coordinates; each consists of rings, an outline and holes. Rings are closed, their first point is
+/// not repeated at the end.
+struct MillBoundary {
+  std::vector<std::vector<std::vector<Point>>> polygons;
+};
+
 struct ParallelOptions {
   MillTool tool;
   MillAccuracy accuracy;
   MillMotion motion;
   /// Distance of neighbouring passes in the plane, or, if 0, from `scallop`.
   double step_over = 0;
-  /// Greatest height of what is left between passes, tolerance included. Where the surface is steep across the passes
+  /// For balls: greatest height of what is left between passes, tolerance included. Where the surface is steep across the passes
   /// or hollow, gaps are halved, up to four times, until it holds in cross-sections half a pass distance apart; what
   /// then remains (next to walls and in sharp valleys along the passes) is counted in the report.
   double scallop = 0;
@@ -62,6 +73,12 @@ struct ParallelOptions {
   /// The tip never goes below it. Nothing given: the part's lowest place; then passes are cut only where the ball
   /// touches the part.
   std::optional<double> bottom;
+  /// Only where the surface of the control point is less steep than that, degrees, and a step-over
+  /// beyond, along and across; waterlines with the same angle as `steep` cut the rest. 0: everywhere.
+  double shallow = 0;
+  /// The axis stays within any of these polygons: passes end at the last lattice point before it, ways between cuts that would leave it
+  /// are taken at the safe height. None: everywhere.
+  MillBoundary boundary;
 };
 
 /// What a tool path consists of.
@@ -83,11 +100,11 @@ struct MillReport {
 };
 
 struct MilledPath {
-  ToolPath path;  ///< the control point is the ball's centre; coordinates are absolute
+  ToolPath path;  ///< the control point is a ball's centre, another cutter's tip; coordinates are absolute
   MillReport report;
 };
 
-/// Parallel finishing passes with a ball: over the part's plan and a radius beyond, each pass in a vertical plane
+/// Parallel finishing passes with a ball or another cutter: over the part's plan and a radius beyond, each pass in a vertical plane
 /// (docs/mill.md).
 ///
 /// Passes along x or y consist of lines and arcs (planes ZX, YZ), others of lines. Between cuts the tool goes straight
@@ -137,6 +154,7 @@ struct WaterlineOptions {
   double steep = 0;      ///< only where the surface is at least so steep, degrees from level, below 90; 0: everywhere
   /// Lowest height of the tip. Nothing given: the part's lowest place, on which the ball rests then.
   std::optional<double> bottom;
+  MillBoundary boundary;  ///< as ParallelOptions has it; contours end there to within the tolerance
 };
 
 /// Waterlines: on evenly spaced levels, from the part's top down, the tool goes around the part (grown by the allowance)
@@ -147,6 +165,9 @@ struct WaterlineOptions {
 /// bounds on the height of the surface below it, which know nothing of contours; one that is not is taken over what is in its
 /// way and counted. Level ground at the height of a level counts as free: the ball may rest on it. Links are those of
 /// mill_parallel. The same path for any number of threads.
+///
+/// For other cutters than balls the contours are traced on level sets of the tip's height, in cells of a quarter of the radius: rings and
+/// gaps narrower than that may be missed.
 ///
 /// Errors: as mill_parallel and compute_surface; a step down or steep angle out of its range; nothing to cut on any level.
 /// Time: that of the surface and of the contours, and some 20 us a move.

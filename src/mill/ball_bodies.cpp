@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "mill/part_domain.hpp"
 
 namespace krepl::mill {
 
@@ -16,48 +17,7 @@ bool BallBodies::list(const Line& line, double from, double to, double floor, bo
   return true;
 }
 
-/// The plan of the sum is the triangle's plan (+) disk: the line runs in and out over the disk about a corner or the
-/// strip beside an edge.
-Interval BallBodies::domain(std::size_t body) const {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Interval all{infinity, -infinity};
-  const auto add = [&](double low, double high) {
-    if (low > high) return;
-    all.low = std::min(all.low, low), all.high = std::max(all.high, high);
-  };
-  const Part& part = parts_[body];
-  double along[3], aside[3];
-  for (unsigned i = 0; i < 3; ++i) {
-    const double x = part.corner[i].x - line_.origin.x, y = part.corner[i].y - line_.origin.y;
-    along[i] = x * line_.direction.x + y * line_.direction.y;
-    aside[i] = y * line_.direction.x - x * line_.direction.y;
-    const double under = squared_ - aside[i] * aside[i];
-    if (under < 0) continue;
-    const double half = std::sqrt(under);
-    add(along[i] - half, along[i] + half);
-  }
-  for (unsigned i = 0; i < 3; ++i) {
-    const unsigned j = i == 2 ? 0 : i + 1;
-    // In coordinates along and across the line: places (t, 0) with a foot on the edge, within R of it.
-    const double u = along[j] - along[i], v = aside[j] - aside[i], squared = u * u + v * v;
-    if (squared == 0) continue;
-    const double length = std::sqrt(squared);
-    // foot * length = ((t - along) u - aside v) in [0, squared]; distance = |(t - along) v + aside u| / length <= R.
-    double low = -infinity, high = infinity;
-    const auto clip = [&](double factor, double least, double most) {  // least <= (t - along) factor <= most
-      if (factor == 0) {
-        if (least > 0 || most < 0) low = infinity;
-        return;
-      }
-      const double p = along[i] + least / factor, q = along[i] + most / factor;
-      low = std::max(low, std::min(p, q)), high = std::min(high, std::max(p, q));
-    };
-    clip(u, aside[i] * v, aside[i] * v + squared);
-    clip(v, -radius_ * length - aside[i] * u, radius_ * length - aside[i] * u);
-    add(low, high);
-  }
-  return all;
-}
+Interval BallBodies::domain(std::size_t body) const { return domain_of(parts_[body], radius_, line_); }
 
 /// The same steps as in the drop cutter's search, for one triangle.
 Touch BallBodies::at(std::size_t body, double t) const {

@@ -31,9 +31,13 @@ void append_chords(Point3 from, const Move& arc, double sagitta, std::vector<Poi
 
 /// The highest place of the surface over the way, less `slope` a unit of it; relative to the part's origin.
 double FreeMoves::highest(Point3 from, Point3 to, double slope, double floor, double accuracy) {
-  const Point3 origin = cutter_.terrain().origin();
-  if (!curve_ || floor != floor_ || accuracy != accuracy_)
-    curve_.emplace(bodies_, DriveCurveOptions{floor, accuracy, std::min(unit_ / 64, accuracy / 16), unit_});
+  const Point3 origin = cutter_.drop.terrain().origin();
+  if (!bodies_ || accuracy != accuracy_) {
+    curve_.reset();
+    bodies_ = make_bodies(cutter_, accuracy / 4);
+  }
+  if (!curve_ || floor != floor_)
+    curve_.emplace(*bodies_, DriveCurveOptions{floor, accuracy, std::min(unit_ / 64, accuracy / 16), unit_});
   floor_ = floor, accuracy_ = accuracy;
   const double dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy);
   const Line line{{from.x - origin.x, from.y - origin.y}, {dx / length, dy / length}};
@@ -41,10 +45,10 @@ double FreeMoves::highest(Point3 from, Point3 to, double slope, double floor, do
 }
 
 bool FreeMoves::is_free_line(Point3 from, Point3 to) {
-  const Point3 origin = cutter_.terrain().origin();
+  const Point3 origin = cutter_.drop.terrain().origin();
   const double length = std::hypot(to.x - from.x, to.y - from.y);
   const Point3 low = from.z < to.z ? from : to;
-  if (length == 0) return cutter_.at({low.x - origin.x, low.y - origin.y}).height <= low.z - origin.z;
+  if (length == 0) return cutter_.height({low.x - origin.x, low.y - origin.y}) <= low.z - origin.z;
   const double slope = (to.z - from.z) / length;
   // Bounds are accurate normal to the curve: next to steep tops it takes finer ones.
   for (const double finer : {2.0, 64.0, 2048.0})
@@ -69,8 +73,8 @@ double FreeMoves::round_up(double z) const { return std::ceil((z - plan_.z0) / u
 
 /// The place, or a free one straight above it.
 Point3 FreeMoves::raised(Point3 p) const {
-  const Point3 origin = cutter_.terrain().origin();
-  const double height = cutter_.at({p.x - origin.x, p.y - origin.y}).height;
+  const Point3 origin = cutter_.drop.terrain().origin();
+  const double height = cutter_.height({p.x - origin.x, p.y - origin.y});
   return height <= p.z - origin.z ? p : Point3{p.x, p.y, round_up(height)};
 }
 
@@ -81,11 +85,11 @@ double FreeMoves::top_over(Point3 from, const Move& move) {
     append_chords(from, move, band_.sagitta, points);
   else
     points.push_back(move.end);
-  const Point3 origin = cutter_.terrain().origin();
+  const Point3 origin = cutter_.drop.terrain().origin();
   double top = std::max(from.z, move.end.z) - origin.z;
   for (const Point3 p : points) {
-    top = std::max({top, cutter_.at({p.x - origin.x, p.y - origin.y}).height,
-                    cutter_.at({from.x - origin.x, from.y - origin.y}).height});
+    top = std::max({top, cutter_.height({p.x - origin.x, p.y - origin.y}),
+                    cutter_.height({from.x - origin.x, from.y - origin.y})});
     if (p.x != from.x || p.y != from.y) top = std::max(top, highest(from, p, 0, plan_.floor, band_.proof_accuracy));
     from = p;
   }

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "mill/ball_bodies.hpp"
 #include "mill/drive_curve.hpp"
+#include "mill/lifted_cutter.hpp"
 #include "mill/links.hpp"
 #include "mill/plan.hpp"
 
@@ -12,9 +12,9 @@ namespace krepl::mill {
 /// Proves moves free by bounds of the surface's height below them, however they came about. One for each thread.
 class FreeMoves {
  public:
-  /// `cutter`: of band.proof_radius.
-  FreeMoves(const DropCutter& cutter, const Band& band, const Plan& plan, double unit)
-      : cutter_(cutter), bodies_(cutter), band_(band), plan_(plan), unit_(unit) {}
+  /// `cutter`: of band.proof_radius, or larger than the tool by band.proof_room.
+  FreeMoves(const LiftedCutter& cutter, const Band& band, const Plan& plan, double unit)
+      : cutter_(cutter), band_(band), plan_(plan), unit_(unit) {}
 
   /// At `lift_feed` takes moves that are not proven free, lines and arcs in level planes, over what is in their way: up, level, down.
   /// Returns how many.
@@ -28,8 +28,8 @@ class FreeMoves {
   Point3 raised(Point3 p) const;
   double top_over(Point3 from, const Move& move);
 
-  const DropCutter& cutter_;
-  BallBodies bodies_;
+  LiftedCutter cutter_;
+  std::unique_ptr<LineBodies> bodies_;
   const Band& band_;
   const Plan& plan_;
   double unit_, floor_ = 0, accuracy_ = 0;

@@ -11,18 +11,12 @@ namespace {
 
 using namespace vectors;
 
-/// Points of a ring, without the first again at the end, and whether the segment to the next point is steep.
-struct Ring {
-  std::vector<Point> points;
-  std::vector<char> is_steep;
-};
-
 class RingMaker {
  public:
   RingMaker(const Surface& surface, const LevelLineOptions& options) : terrain_(surface.terrain()), o_(options) {}
 
-  Ring make(std::span<const CutPiece> pieces) const {
-    Ring ring;
+  LevelRing make(std::span<const CutPiece> pieces) const {
+    LevelRing ring;
     std::vector<Point3> points;
     for (const CutPiece& piece : pieces) {
       points.assign({piece.start});
@@ -36,11 +30,7 @@ class RingMaker {
     }
     while (ring.points.size() > 1 && is_near(ring.points.front(), ring.points.back()))
       ring.points.pop_back(), ring.is_steep.pop_back();
-    if (!o_.reversed) return ring;
-    std::reverse(ring.points.begin(), ring.points.end());
-    std::reverse(ring.is_steep.begin(), ring.is_steep.end());
-    // What was the segment from the last point to the first is so again.
-    std::rotate(ring.is_steep.begin(), ring.is_steep.begin() + 1, ring.is_steep.end());
+    if (o_.reversed) ring.reverse();
     return ring;
   }
 
@@ -71,7 +61,7 @@ std::vector<std::size_t> by_nesting(const Contour& contour) {
   return order;
 }
 
-void start_near(Ring& ring, Point at) {
+void start_near(LevelRing& ring, Point at) {
   std::size_t best = 0;
   double nearest = -1;
   for (std::size_t k = 0; k < ring.points.size(); ++k) {
@@ -91,7 +81,7 @@ void start_near(Ring& ring, Point at) {
 }
 
 /// The steep stretches of a ring, or all of it.
-void append_steep(const Ring& ring, std::vector<LevelLine>& lines) {
+void append_steep(const LevelRing& ring, std::vector<LevelLine>& lines) {
   const std::size_t n = ring.points.size();
   for (std::size_t k = 0; k < n;) {
     if (!ring.is_steep[k]) {
@@ -106,12 +96,23 @@ void append_steep(const Ring& ring, std::vector<LevelLine>& lines) {
 
 }  // namespace
 
-std::vector<LevelLine> level_lines(const Contour& contour, const Surface& surface, const LevelLineOptions& options,
-                                   Point& at, std::size_t& skipped) {
-  std::vector<LevelLine> lines;
+void LevelRing::reverse() {
+  std::reverse(points.begin(), points.end());
+  std::reverse(is_steep.begin(), is_steep.end());
+  // What was the segment from the last point to the first is so again.
+  std::rotate(is_steep.begin(), is_steep.begin() + 1, is_steep.end());
+}
+
+std::vector<LevelRing> level_rings(const Contour& contour, const Surface& surface, const LevelLineOptions& options) {
+  std::vector<LevelRing> rings;
   const RingMaker maker(surface, options);
-  for (const std::size_t r : by_nesting(contour)) {
-    Ring ring = maker.make(contour.ring(r));
+  for (const std::size_t r : by_nesting(contour)) rings.push_back(maker.make(contour.ring(r)));
+  return rings;
+}
+
+std::vector<LevelLine> level_lines(std::vector<LevelRing>&& rings, Point& at, std::size_t& skipped) {
+  std::vector<LevelLine> lines;
+  for (LevelRing& ring : rings) {
     if (ring.points.size() < 3) {
       ++skipped;
       continue;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "kernel/parallel.hpp"
-#include "mill/ball_bodies.hpp"
 #include "mill/drive_curve.hpp"
 
 namespace krepl::mill {
@@ -60,6 +59,15 @@ class Linker {
     go(MoveKind::rapid, {to.x, to.y, level}, 0);
     descend(to);
   }
+  void link_over(Point3 to) {
+    go(MoveKind::rapid, {at_.x, at_.y, o_.safe_height}, 0);
+    go(MoveKind::rapid, {to.x, to.y, o_.safe_height}, 0);
+    descend(to);
+  }
+  bool stays_inside(Point3 to, Point3 origin) const {
+    return o_.boundary == nullptr ||
+           o_.boundary->contains({at_.x - origin.x, at_.y - origin.y}, {to.x - origin.x, to.y - origin.y});
+  }
   void finish() { go(MoveKind::rapid, {at_.x, at_.y, o_.safe_height}, 0); }
 
  private:
@@ -69,16 +77,16 @@ class Linker {
 
 }  // namespace
 
-Result<ToolPath> link_cuts(const DropCutter& cutter, std::vector<Cut>&& cuts, const LinkOptions& options,
+Result<ToolPath> link_cuts(const LiftedCutter& cutter, std::vector<Cut>&& cuts, const LinkOptions& options,
                            const Context& context) {
-  const Point3 origin = cutter.terrain().origin();
+  const Point3 origin = cutter.drop.terrain().origin();
   std::vector<double> top(cuts.size(), 0.0);  // between cut k - 1 and cut k
   Context quiet;
   quiet.threads = context.threads, quiet.cancel = context.cancel;
   const bool done = kernel::parallel_blocks(quiet, cuts.size(), 16, [&](std::size_t first, std::size_t last) {
-    BallBodies bodies(cutter);
-    const double smallest = options.unit / 64;
-    DriveCurve curve(bodies, {options.floor, std::max(cutter.radius() / 32, options.unit), smallest, options.unit});
+    const double smallest = options.unit / 64, accuracy = std::max(cutter.drop.radius() / 32, options.unit);
+    const std::unique_ptr<LineBodies> bodies = make_bodies(cutter, accuracy / 4);
+    DriveCurve curve(*bodies, {options.floor, accuracy, smallest, options.unit});
     for (std::size_t k = std::max<std::size_t>(first, 1); k < last; ++k)
       top[k] = highest_between(curve, cuts[k - 1].end(), cuts[k].start, origin);
   });
@@ -87,8 +95,10 @@ Result<ToolPath> link_cuts(const DropCutter& cutter, std::vector<Cut>&& cuts, co
   for (std::size_t k = 0; k < cuts.size(); ++k) {
     if (k == 0)
       linker.start(cuts[k].start);
-    else
+    else if (linker.stays_inside(cuts[k].start, origin))
       linker.link(cuts[k].start, top[k]);
+    else
+      linker.link_over(cuts[k].start);
     linker.cut(cuts[k]);
     cuts[k] = {};
   }
@@ -98,11 +108,11 @@ Result<ToolPath> link_cuts(const DropCutter& cutter, std::vector<Cut>&& cuts, co
 
 LinkOptions links_of(const Plan& plan, const MillTool& tool, const MillAccuracy& accuracy, const MillMotion& motion,
                      double feed, double short_link) {
-  const double clearance = motion.clearance >= 0 ? motion.clearance : tool.radius / 2;
-  return {plan.safe, clearance, feed, motion.plunge_feed, short_link, plan.floor, accuracy.unit, plan.tip};
+  const double clearance = motion.clearance >= 0 ? motion.clearance : radius_of(tool) / 2;
+  return {plan.safe, clearance, feed, motion.plunge_feed, short_link, plan.floor, accuracy.unit, plan.tip, nullptr};
 }
 
-Result<MilledPath> finish_path(const DropCutter& cutter, std::vector<Cut>&& cuts, const LinkOptions& options,
+Result<MilledPath> finish_path(const LiftedCutter& cutter, std::vector<Cut>&& cuts, const LinkOptions& options,
                                const MillMotion& motion, MilledPath milled, const Context& context) {
   Result<ToolPath> path = link_cuts(cutter, std::move(cuts), options, context);
   if (!path) return path.error();

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "kernel/parallel.hpp"
 #include "krepl/drop_cutter.hpp"
-#include "mill/ball_bodies.hpp"
 #include "mill/curve_fit.hpp"
+#include "mill/lifted_cutter.hpp"
 #include "mill/links.hpp"
 #include "mill/pass_layout.hpp"
+#include "mill/pass_limits.hpp"
 #include "mill/plan.hpp"
 #include "mill/scallops.hpp"
 
@@ -74,18 +76,19 @@ struct PassResult {
   std::uint64_t touches = 0;
 };
 
-PassResult make_pass(const DropCutter& cutter, const mill::PassLayout& layout, std::size_t k, const Plan& plan,
-                     const ParallelOptions& o) {
+PassResult make_pass(const mill::LiftedCutter& cutter, const mill::PassLayout& layout, std::size_t k, const Plan& plan,
+                     const mill::PassLimits& limits, const ParallelOptions& o) {
   const mill::PassLayout::Pass& pass = layout.passes[k];
-  mill::BallBodies bodies(cutter);
-  mill::DriveCurve curve(bodies, {plan.floor, plan.accuracy, o.accuracy.unit / 64, layout.step});
+  const std::unique_ptr<mill::LineBodies> bodies = mill::make_bodies(cutter, plan.slack);
+  mill::DriveCurve curve(*bodies, {plan.floor, plan.accuracy, o.accuracy.unit / 64, layout.step});
   std::vector<CurveRun> runs;
-  curve.trace(layout.line(pass), double(pass.first) * layout.step, double(pass.last) * layout.step,
-              o.bottom.has_value(), runs);
+  for (const mill::PassRange& range : mill::limit_pass(cutter, layout, pass, limits))
+    curve.trace(layout.line(pass), double(range.first) * layout.step, double(range.last) * layout.step,
+                o.bottom.has_value(), runs);
   PassResult result;
   result.touches = curve.touches();
   mill::FitOptions fit{layout.step, o.accuracy.unit, plan.z0, plan.band, o.accuracy.arc_error, 0};
-  if (o.accuracy.arcs && layout.is_along_axis()) fit.most_radius = 64 * (cutter.radius() + cutter.terrain().extent());
+  if (o.accuracy.arcs && layout.is_along_axis()) fit.most_radius = 64 * (plan.radius + cutter.drop.terrain().extent());
   const PassMoves in_space(layout, plan, o);
   for (const CurveRun& run : runs) {
     std::vector<FittedMove> moves;
@@ -108,9 +111,9 @@ bool refine_passes(const DropCutter& cutter, mill::PassLayout& layout, const Pla
   Context quiet;
   quiet.threads = context.threads, quiet.cancel = context.cancel;
   const bool done = kernel::parallel_blocks(quiet, extra.size(), 1, [&](std::size_t k, std::size_t) {
-    mill::BallBodies bodies(cutter);
+    const std::unique_ptr<mill::LineBodies> bodies = mill::make_bodies(cutter, 0);
     const double accuracy = std::max(plan.accuracy, scallops.height / 16);
-    mill::DriveCurve curve(bodies, {plan.floor, accuracy, o.accuracy.unit / 64, layout.step});
+    mill::DriveCurve curve(*bodies, {plan.floor, accuracy, o.accuracy.unit / 64, layout.step});
     extra[k] = mill::find_extra_passes(curve, layout, layout.passes[k], layout.passes[k + 1], scallops);
   });
   std::vector<mill::PassLayout::Pass> passes;
@@ -141,22 +144,25 @@ bool refine_passes(const DropCutter& cutter, mill::PassLayout& layout, const Pla
 
 Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const ParallelOptions& o,
                                  const Context& context) {
-  Result<Plan> made = mill::make_plan(*part, o);
+  Result<Plan> made = mill::make_plan(*part, o, mill::Cutters::all);
   if (!made) return made.error();
   Plan& plan = *made;
-  const Result<DropCutter> cutter = DropCutter::build(part, plan.radius, context);
-  if (!cutter) return cutter.error();
+  const Result<DropCutter> drop = DropCutter::build(part, plan.cutter, context);
+  if (!drop) return drop.error();
+  const mill::LiftedCutter cutter(*drop, plan.lift);
   mill::PassLayout layout =
       mill::lay_passes(*part, o.accuracy.unit, o.angle, plan.step_over, plan.radius, o.accuracy.tolerance);
   plan.band -= layout.step;
   for (std::size_t k = 1; k < layout.passes.size(); k += 2) layout.passes[k].backwards = o.zigzag;
   MilledPath milled;
-  if (o.scallop != 0 && !refine_passes(*cutter, layout, plan, o, milled.report, context))
+  if (o.scallop != 0 && !refine_passes(*drop, layout, plan, o, milled.report, context))
     return Error{ErrorCode::cancelled, "cancelled", "", ""};
+  const mill::PassLimits limits{mill::Boundary(o.boundary, part->origin()), o.shallow * std::numbers::pi / 180,
+                                plan.step_over};
   std::vector<PassResult> results(layout.passes.size());
   kernel::Progress progress(context, results.size());
   const bool done = kernel::parallel_blocks(context, results.size(), 1, [&](std::size_t k, std::size_t) {
-    results[k] = make_pass(*cutter, layout, k, plan, o);
+    results[k] = make_pass(cutter, layout, k, plan, limits, o);
     progress.add(1);
   });
   if (!done) return Error{ErrorCode::cancelled, "cancelled", "", ""};
@@ -165,13 +171,15 @@ Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const Para
     milled.report.curve_points += r.points, milled.report.touches += r.touches;
     for (Cut& c : r.cuts) cuts.push_back(std::move(c));
   }
-  if (cuts.empty()) return Error{ErrorCode::input, "there is no pass over the part", "", "use a smaller step-over"};
+  if (cuts.empty())
+    return Error{ErrorCode::input, "there is no pass over the part", "",
+                 o.boundary.polygons.empty() ? "use a smaller step-over" : "use a smaller step-over or a larger boundary"};
   milled.report.passes = results.size(), milled.report.cuts = cuts.size();
   milled.report.step_over = layout.step_over, milled.report.angle = layout.angle();
   const double short_link = o.zigzag ? 1.5 * plan.step_over : 0;
-  return mill::finish_path(*cutter, std::move(cuts),
-                           mill::links_of(plan, o.tool, o.accuracy, o.motion, o.motion.feed, short_link), o.motion,
-                           std::move(milled), context);
+  mill::LinkOptions links = mill::links_of(plan, o.tool, o.accuracy, o.motion, o.motion.feed, short_link);
+  links.boundary = &limits.boundary;
+  return mill::finish_path(cutter, std::move(cuts), links, o.motion, std::move(milled), context);
 }
 
 }  // namespace krepl

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mill/boundary.hpp"
+#include "mill/grown_cutter.hpp"
 #include "model/radius_check.hpp"
 
 namespace krepl::mill {
@@ -15,8 +17,18 @@ namespace {
 
 constexpr double gentle = 0.9;  // the cosine of 26 degrees
 
-Status check(const ParallelOptions& o) {
-  if (!is_positive(o.tool.radius))
+bool is_ball(const MillTool& tool) { return !tool.cutter || tool.cutter->kind() == Cutter::Kind::ball; }
+
+Status check(const ParallelOptions& o, Cutters cutters) {
+  if (cutters == Cutters::balls && !is_ball(o.tool))
+    return usage("the strategy makes no paths of tool '" + o.tool.cutter->text() + "', only of ball-nose cutters",
+                 "use parallel passes or waterlines, or a ball");
+  if (o.scallop != 0 && !is_ball(o.tool))
+    return usage("heights of scallops are known of ball-nose cutters only, not of tool '" + o.tool.cutter->text() + "'",
+                 "give the step-over");
+  if (o.accuracy.control_point == ControlPoint::centre && !is_ball(o.tool))
+    return usage("tool '" + o.tool.cutter->text() + "' has no centre", "use its tip as the control point");
+  if (!is_positive(radius_of(o.tool)))
     return usage("the tool's radius is not a finite number greater than zero", "give one in the unit of the part");
   if (!std::isfinite(o.tool.allowance) || o.tool.allowance < 0)
     return usage("the allowance is not a finite number of zero or more", "");
@@ -29,12 +41,14 @@ Status check(const ParallelOptions& o) {
                  "use at least " + shown(16 * o.accuracy.unit + 2 * o.accuracy.arc_error) + ", or more decimals");
   if (!is_positive(o.motion.feed) || !is_positive(o.motion.plunge_feed) || !is_positive(o.motion.rapid_feed))
     return usage("a feed is not a finite number greater than zero", "give units a minute");
+  if (!(o.shallow >= 0 && o.shallow < 90)) return usage("the shallow angle is not between 0 and 90 degrees", "");
+  if (Status checked = check_boundary(o.boundary); !checked) return checked.error();
   if (!std::isfinite(o.angle)) return usage("the angle is not a finite number", "give degrees");
   if ((o.step_over != 0) == (o.scallop != 0))
     return usage("there is not one of step-over and scallop height", "give one of them");
   if (o.step_over != 0 && !is_positive(o.step_over))
     return usage("the step-over is not a finite number greater than zero", "");
-  if (o.scallop != 0 && !(is_positive(o.scallop) && o.scallop <= o.tool.radius / 2))
+  if (o.scallop != 0 && !(is_positive(o.scallop) && o.scallop <= radius_of(o.tool) / 2))
     return usage("the scallop height is not between 0 and half the tool's radius", "");
   if (o.scallop != 0 && o.scallop <= 1.25 * o.accuracy.tolerance)
     return usage(
@@ -47,28 +61,40 @@ Status check(const ParallelOptions& o) {
 /// less, so that gentle slopes across them need no further passes.
 double step_over_of(const ParallelOptions& o) {
   if (o.step_over != 0) return o.step_over;
-  const double height = o.scallop - o.accuracy.tolerance, radius = o.tool.radius + o.tool.allowance;
+  const double height = o.scallop - o.accuracy.tolerance, radius = radius_of(o.tool) + o.tool.allowance;
   return gentle * 2 * std::sqrt(2 * radius * height - height * height);
 }
 
 }  // namespace
 
-Result<Plan> make_plan(const Terrain& part, const ParallelOptions& o) {
-  if (Status checked = check(o); !checked) return checked.error();
+double radius_of(const MillTool& tool) { return tool.cutter ? tool.cutter->radius() : tool.radius; }
+
+Result<Plan> make_plan(const Terrain& part, const ParallelOptions& o, Cutters cutters) {
+  if (Status checked = check(o, cutters); !checked) return checked.error();
   const MillAccuracy& a = o.accuracy;
   Plan plan;
-  plan.radius = o.tool.radius + o.tool.allowance + 2 * a.unit;
+  const double radius = radius_of(o.tool);
+  plan.radius = radius + o.tool.allowance + 2 * a.unit;
+  const Result<Cutter> cutter =
+      is_ball(o.tool) ? Cutter::ball(2 * plan.radius) : grow(*o.tool.cutter, o.tool.allowance, 2 * a.unit);
+  if (!cutter) return cutter.error();
+  plan.cutter = *cutter;
+  plan.lift = is_ball(o.tool) ? 0 : o.tool.allowance + 2 * a.unit;
   if (a.unit < 0x1p-34 * std::max({part.extent(), plan.radius, std::abs(part.origin().x), std::abs(part.origin().y)}))
     return usage("numbers that are multiples of " + shown(a.unit) + " are too fine for the part's coordinates",
                  "use fewer decimals");
-  plan.accuracy = a.tolerance / 8;
-  plan.band = a.tolerance - plan.accuracy - 4.5 * a.unit - a.arc_error;
+  plan.slack = is_ball(o.tool) ? 0 : a.tolerance / 32;
+  plan.accuracy = a.tolerance / 8 - plan.slack;
+  plan.band = a.tolerance - a.tolerance / 8 - 4.5 * a.unit - a.arc_error;
+  if (!is_ball(o.tool)) plan.band -= a.unit;  // sharp rims are farther out: roundness()
   const Point3 origin = part.origin(), low = part.lowest(), high = part.highest();
-  plan.tip = a.control_point == ControlPoint::tip ? o.tool.radius : 0;
+  // From the control point to the lowest point, of the tool and of the one that is computed with.
+  const double above_tip = is_ball(o.tool) ? radius : 0, above_grown = is_ball(o.tool) ? plan.radius : plan.lift;
+  plan.tip = a.control_point == ControlPoint::tip ? above_tip : 0;
   plan.z0 = plan.tip - origin.z;
-  plan.floor = o.bottom ? *o.bottom + o.tool.radius - origin.z : low.z + plan.radius;
-  const double top = std::max(high.z + plan.radius, plan.floor) + origin.z;
-  const double height = o.motion.safe_height ? *o.motion.safe_height + plan.tip : top + o.tool.radius;
+  plan.floor = o.bottom ? *o.bottom + above_tip - origin.z : low.z + above_grown;
+  const double top = std::max(high.z + above_grown, plan.floor) + origin.z;
+  const double height = o.motion.safe_height ? *o.motion.safe_height + plan.tip : top + radius;
   plan.safe = std::ceil((height - plan.tip) / a.unit) * a.unit + plan.tip;
   if (plan.safe < top)
     return usage(
@@ -83,18 +109,24 @@ Result<Plan> make_plan(const Terrain& part, const ParallelOptions& o) {
 }
 
 Result<Plan> make_plan(const Terrain& part, const MillTool& tool, const MillAccuracy& accuracy, const MillMotion& motion,
-                       std::optional<double> bottom) {
+                       std::optional<double> bottom, Cutters cutters) {
   ParallelOptions o;
   o.tool = tool, o.accuracy = accuracy, o.motion = motion, o.bottom = bottom;
   o.step_over = part.extent() + 8 * accuracy.unit;  // there are no passes
-  return make_plan(part, o);
+  return make_plan(part, o, cutters);
 }
 
-Band make_band(const Plan& plan, const MillAccuracy& a) {
+Band make_band(const Plan& plan, const MillAccuracy& a, double farther) {
   const double room = a.tolerance - 2 * a.unit - 2 * a.arc_error;  // at least 14 units
   Band band;
   band.sagitta = room / 16, band.proof_accuracy = room / 8;
-  band.within = (room - band.sagitta - band.proof_accuracy) / 2;
+  band.proof_room = 2 * a.unit + a.arc_error + band.sagitta;
+  const double before = band.proof_room + band.proof_accuracy;
+  if (farther == 1)
+    band.within = (room - band.sagitta - band.proof_accuracy) / 2;
+  else
+    band.within = (a.tolerance - a.arc_error - farther * before) / (1 + farther);
+  band.curve_room = before + band.within;
   band.proof_radius = plan.radius + a.arc_error + band.sagitta;
   band.curve_radius = band.proof_radius + band.proof_accuracy + band.within;
   return band;

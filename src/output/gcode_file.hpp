@@ -23,6 +23,7 @@ struct GcodeOptions {
   int tool_number = 1;
   double tool_diameter = 0;
   std::string tool_name;            ///< for the comment, as "ball-nose"
+  bool has_centre = true;           ///< for the comment: what Z means if it is that of the control point
   std::string part_name, strategy;  ///< for the comment
 };
 

@@ -28,7 +28,8 @@ class GcodeWriter {
     const char* unit = o_.inches ? "inch" : "mm";
     line("({} by krepl)", comment_text(o_.part_name + ", " + o_.strategy));
     line("(tool table: T{} D{:.{}f} {}, lengths in {}, Z is that of the tool's {})", o_.tool_number, o_.tool_diameter,
-         o_.decimals, comment_text(o_.tool_name), unit, o_.below_centre != 0 ? "tip" : "centre");
+         o_.decimals, comment_text(o_.tool_name), unit,
+         o_.below_centre != 0 || !o_.has_centre ? "tip" : "centre");
     line("{} G90 G94 G17 G40 G49 G80 G61", o_.inches ? "G20" : "G21");
     if (o_.post == GcodePost::linuxcnc) {
       line("G91.1");

@@ -126,13 +126,19 @@ void GridPyramid::visit_cells(Search& search, std::size_t column, std::size_t fi
 template void GridPyramid::visit_cells(Search&, std::size_t, std::size_t, std::size_t) const;
 template void GridPyramid::visit_cells(ProfileSearch&, std::size_t, std::size_t, std::size_t) const;
 
+template <class Survey, class List>
 void GridPyramid::list_cells(const Survey& survey, std::size_t column, std::size_t first_row, std::size_t last_row,
-                             Shortlist& shortlist) const {
+                             List& shortlist) const {
   for_each_triangle(survey, column, first_row, last_row,
                     [&](const FourTriangles& four, unsigned worth, const float* bounds, Index first) {
                       shortlist.add(four, worth, bounds, [&](unsigned lane) { return first + 2 * lane; });
                     });
 }
+
+template void GridPyramid::list_cells(const Survey&, std::size_t, std::size_t, std::size_t, Shortlist&) const;
+template void GridPyramid::list_cells(const Survey&, std::size_t, std::size_t, std::size_t, LongList&) const;
+template void GridPyramid::list_cells(const ProfileSurvey&, std::size_t, std::size_t, std::size_t, Shortlist&) const;
+template void GridPyramid::list_cells(const ProfileSurvey&, std::size_t, std::size_t, std::size_t, LongList&) const;
 
 Part GridPyramid::part(Index triangle) const {
   const Index columns = Index(columns_), s = triangle / 2, row = s / columns, column = s - row * columns;

@@ -192,7 +192,8 @@ void GridPyramid::visit(Search& search, const Reach& reach, std::size_t level,
 template void GridPyramid::run(Search&) const;
 template void GridPyramid::run(ProfileSearch&) const;
 
-void GridPyramid::list(const Survey& survey, Shortlist& shortlist) const {
+template <class Survey, class List>
+void GridPyramid::list(const Survey& survey, List& shortlist) const {
   Reach reach;
   const double half_x = survey.spread.half_x / scale_.inverse_unit, half_y = survey.spread.half_y / scale_.inverse_unit;
   if (!this->reach(survey, half_x, half_y, reach)) return;
@@ -206,8 +207,9 @@ void GridPyramid::list(const Survey& survey, Shortlist& shortlist) const {
   shortlist.close();
 }
 
+template <class Survey, class List>
 void GridPyramid::list_node(const Survey& survey, const Reach& reach, std::size_t level, std::size_t column, std::size_t row,
-                            Shortlist& shortlist) const {
+                            List& shortlist) const {
   float bounds[16];
   for (unsigned worth = bound_children(survey, reach, level, column, row, bounds); worth != 0; worth &= worth - 1) {
     if (shortlist.overflowed()) return;
@@ -221,5 +223,10 @@ void GridPyramid::list_node(const Survey& survey, const Reach& reach, std::size_
     }
   }
 }
+
+template void GridPyramid::list(const Survey&, Shortlist&) const;
+template void GridPyramid::list(const ProfileSurvey&, Shortlist&) const;
+template void GridPyramid::list(const Survey&, LongList&) const;
+template void GridPyramid::list(const ProfileSurvey&, LongList&) const;
 
 }  // namespace krepl::drop

@@ -23,8 +23,10 @@ class GridPyramid {
   ToolSearch<Tool> search(const Tool& tool) const {
     return {scale_, tool, moved(tool.place, tool.radius)};
   }
-  Survey survey(Point centre, double radius, const ManyPlaces& spread) const {
-    return {scale_, ball_over(centre, radius), moved(centre, radius), spread};
+  /// `tool` over the middle of the rectangle of places.
+  template <class Tool>
+  ToolSurvey<Tool> survey(const Tool& tool, const ManyPlaces& spread) const {
+    return {scale_, tool, moved(tool.place, tool.radius), spread};
   }
   double inverse_unit() const { return scale_.inverse_unit; }
   double cell() const { return std::sqrt(grid_.cell_x * grid_.cell_y); }
@@ -32,8 +34,9 @@ class GridPyramid {
   /// Looks at all triangles that may be touched. Searches are those of balls and of other cutters.
   template <class Search>
   void run(Search& search) const;
-  /// Lists all triangles that may be touched over some place of the survey.
-  void list(const Survey& survey, Shortlist& shortlist) const;
+  /// Lists all triangles that may be touched over some place of the survey, of a ball or another cutter.
+  template <class Survey, class List>
+  void list(const Survey& survey, List& list) const;
   /// Looks at one triangle.
   template <class Search>
   void touch(Search& search, Index triangle) const {
@@ -82,8 +85,9 @@ class GridPyramid {
                     Candidates<capacity>& found) const;
   template <class Search, std::size_t capacity>
   void visit(Search& search, const Reach& reach, std::size_t level, const Candidates<capacity>& found) const;
+  template <class Survey, class List>
   void list_node(const Survey& survey, const Reach& reach, std::size_t level, std::size_t column, std::size_t row,
-                 Shortlist& shortlist) const;
+                 List& shortlist) const;
 
   // Cells, four a row, from first_row to last_row (8 rows at most).
   struct FourCells;
@@ -96,8 +100,9 @@ class GridPyramid {
                          const Each& each) const;
   template <class Search>
   void visit_cells(Search& search, std::size_t column, std::size_t first_row, std::size_t last_row) const;
+  template <class Survey, class List>
   void list_cells(const Survey& survey, std::size_t column, std::size_t first_row, std::size_t last_row,
-                  Shortlist& shortlist) const;
+                  List& shortlist) const;
 
   TerrainAccess t_;
   const double* heights_;

@@ -193,12 +193,14 @@ void MeshTree::visit(Search& search, std::size_t level, std::size_t index) const
 template void MeshTree::visit(Search&, std::size_t, std::size_t) const;
 template void MeshTree::visit(ProfileSearch&, std::size_t, std::size_t) const;
 
-void MeshTree::list(const Survey& survey, Shortlist& shortlist) const {
+template <class Survey, class List>
+void MeshTree::list(const Survey& survey, List& shortlist) const {
   list_node(survey, levels_.size(), 0, shortlist);
   shortlist.close();
 }
 
-void MeshTree::list_node(const Survey& survey, std::size_t level, std::size_t index, Shortlist& shortlist) const {
+template <class Survey, class List>
+void MeshTree::list_node(const Survey& survey, std::size_t level, std::size_t index, List& shortlist) const {
   float bounds[arity];
   if (level == 0) {
     for (unsigned k = 0; k < arity; k += 4) {
@@ -213,6 +215,11 @@ void MeshTree::list_node(const Survey& survey, std::size_t level, std::size_t in
     list_node(survey, level - 1, index * arity + unsigned(__builtin_ctz(worth)), shortlist);
   }
 }
+
+template void MeshTree::list(const Survey&, Shortlist&) const;
+template void MeshTree::list(const ProfileSurvey&, Shortlist&) const;
+template void MeshTree::list(const Survey&, LongList&) const;
+template void MeshTree::list(const ProfileSurvey&, LongList&) const;
 
 Part MeshTree::part(Index t) const {
   const auto& triangle = t_.triangles()[t];

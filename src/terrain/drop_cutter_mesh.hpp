@@ -20,8 +20,10 @@ class MeshTree {
   ToolSearch<Tool> search(const Tool& tool) const {
     return {scale_, tool, moved(tool.place, tool.radius)};
   }
-  Survey survey(Point centre, double radius, const ManyPlaces& spread) const {
-    return {scale_, ball_over(centre, radius), moved(centre, radius), spread};
+  /// `tool` over the middle of the rectangle of places.
+  template <class Tool>
+  ToolSurvey<Tool> survey(const Tool& tool, const ManyPlaces& spread) const {
+    return {scale_, tool, moved(tool.place, tool.radius), spread};
   }
   double inverse_unit() const { return scale_.inverse_unit; }
   double cell() const { return cell_; }
@@ -31,8 +33,9 @@ class MeshTree {
   void run(Search& search) const {
     visit(search, levels_.size(), 0);
   }
-  /// Lists all triangles that may be touched over some place of the survey.
-  void list(const Survey& survey, Shortlist& shortlist) const;
+  /// Lists all triangles that may be touched over some place of the survey, of a ball or another cutter.
+  template <class Survey, class List>
+  void list(const Survey& survey, List& list) const;
   /// Looks at one triangle.
   template <class Search>
   void touch(Search& search, Index triangle) const {
@@ -65,7 +68,8 @@ class MeshTree {
   // Level 0 is that of the leaves, level k of levels_[k - 1].
   template <class Search>
   void visit(Search& search, std::size_t level, std::size_t index) const;
-  void list_node(const Survey& survey, std::size_t level, std::size_t index, Shortlist& shortlist) const;
+  template <class Survey, class List>
+  void list_node(const Survey& survey, std::size_t level, std::size_t index, List& shortlist) const;
 
   TerrainAccess t_;
   Scale scale_;

@@ -16,7 +16,10 @@ namespace krepl::drop {
 //                  touch the whole plane, moved into the part: the plane's own slope if that point is inside, so that
 //                  nothing is lost.
 //
-// Both hold as well for a profile below the tool's. The one taken is nowhere steeper than `steepest`, so that
+// For many places p of a rectangle about the axis, heights relative to a plane of slope w through it: |q - p| is less than
+// |q| by what the nearest place is nearer, and v . (q - p) - w . p rises by (v - w) . p at most.
+//
+// All hold as well for a profile below the tool's. The one taken is nowhere steeper than `steepest`, so that
 // coordinates that are off cost little.
 
 /// What the bounds need to know of a cutter. All lengths are in units of Scale::unit.
@@ -76,50 +79,64 @@ struct ProfileBound {
   }
 };
 
+/// How far the places of a rectangle are from its middle.
+inline Float4 half_x(const OnePlace&) { return 0.f; }
+inline Float4 half_y(const OnePlace&) { return 0.f; }
+inline Float4 half_x(const ManyPlaces& spread) { return spread.half_x; }
+inline Float4 half_y(const ManyPlaces& spread) { return spread.half_y; }
+
 /// `touched` whether the tool touches the plane within the part, at e; `plane` its height at the place; `rise(gx, gy)`
 /// how much a plane of that slope through the place rises at most over the part.
-template <class Rise>
-Float4 lesser_bound(const ProfileBound& tool, Float4 top, Float4 far_x, Float4 far_y, Float4 touched, Float4 ex,
+template <class Spread, class Rise>
+Float4 lesser_bound(const ProfileBound& tool, const Spread& spread, Float4 top, Float4 far_x, Float4 far_y, Float4 touched, Float4 ex,
                     Float4 ey, Float4 plane, Float4 slope_x, Float4 slope_y, const Rise& rise) {
   const Float4 zero = 0.f;
-  const Float4 near_x = max(far_x - tool.blur, zero), near_y = max(far_y - tool.blur, zero);
+  const Float4 near_x = max(far_x - half_x(spread) - tool.blur, zero), near_y = max(far_y - half_y(spread) - tool.blur, zero);
   const Float4 d2 = near_x * near_x + near_y * near_y;
-  const Float4 by_top = top - tool.height(sqrt(d2));
+  Float4 by_top = top - tool.height(sqrt(d2));
   Float4 vx, vy;
   tool.tangent(ex, ey, slope_x, slope_y, vx, vy);
   vx = select(touched, slope_x, vx), vy = select(touched, slope_y, vy);
-  const Float4 by_plane = plane + tool.conjugate(sqrt(vx * vx + vy * vy)) + rise(slope_x - vx, slope_y - vy);
+  Float4 by_plane = plane + tool.conjugate(sqrt(vx * vx + vy * vy)) + rise(slope_x - vx, slope_y - vy);
+  if constexpr (Spread::wide) {
+    by_top = by_top + (std::abs(spread.slope_x) * spread.half_x + std::abs(spread.slope_y) * spread.half_y);
+    by_plane = by_plane + absolute(vx - spread.slope_x) * spread.half_x + absolute(vy - spread.slope_y) * spread.half_y;
+  }
   return select(Float4(tool.squared_up) >= d2, min(by_top, by_plane), Float4(-float_infinity));
 }
 
-/// The rise over what of a rectangle is within the square about the tool.
+/// The rise over what of a rectangle is within the square about the tool, over all its places.
 struct SquareRise {
   Float4 x0, x1, y0, y1;
-  SquareRise(const ProfileBound& tool, Float4 x0_, Float4 x1_, Float4 y0_, Float4 y1_) {
-    const Float4 side = tool.radius * (1 + 0x1p-20f) + tool.blur, zero = 0.f, other = zero - side;
-    x0 = min(max(x0_, other), side), x1 = min(max(x1_, other), side);
-    y0 = min(max(y0_, other), side), y1 = min(max(y1_, other), side);
+  template <class Spread>
+  SquareRise(const ProfileBound& tool, const Spread& spread, Float4 x0_, Float4 x1_, Float4 y0_, Float4 y1_) {
+    const Float4 side = tool.radius * (1 + 0x1p-20f) + tool.blur, zero = 0.f;
+    const Float4 side_x = side + half_x(spread), side_y = side + half_y(spread);
+    x0 = min(max(x0_, zero - side_x), side_x), x1 = min(max(x1_, zero - side_x), side_x);
+    y0 = min(max(y0_, zero - side_y), side_y), y1 = min(max(y1_, zero - side_y), side_y);
   }
   Float4 operator()(Float4 gx, Float4 gy) const { return max(gx * x0, gx * x1) + max(gy * y0, gy * y1); }
 };
 
-inline Float4 bound(const ProfileBound& tool, const FourBlocks& p, const OnePlace&) {
+template <class Spread>
+Float4 bound(const ProfileBound& tool, const FourBlocks& p, const Spread& spread) {
   const Float4 zero = 0.f, half = 0.5f;
-  const SquareRise rise(tool, p.x0, p.x1, p.y0, p.y1);
+  const SquareRise rise(tool, spread, p.x0, p.x1, p.y0, p.y1);
   Float4 ex, ey;
   tool.touch_plane(p.slope_x, p.slope_y, ex, ey);
   const Float4 qx = min(max(ex, rise.x0), rise.x1), qy = min(max(ey, rise.y0), rise.y1);
   const Float4 touched = (absolute(qx - ex) < Float4(0x1p-100f)) & (absolute(qy - ey) < Float4(0x1p-100f));
   const Float4 plane = p.level - p.slope_x * (half * (p.x0 + p.x1)) - p.slope_y * (half * (p.y0 + p.y1));
-  return lesser_bound(tool, p.top, max(p.x0, zero - p.x1), max(p.y0, zero - p.y1), touched, qx, qy, plane, p.slope_x,
+  return lesser_bound(tool, spread, p.top, max(p.x0, zero - p.x1), max(p.y0, zero - p.y1), touched, qx, qy, plane, p.slope_x,
                       p.slope_y, rise);
 }
 
-inline Float4 bound(const ProfileBound& tool, const FourTriangles& p, const OnePlace&) {
+template <class Spread>
+Float4 bound(const ProfileBound& tool, const FourTriangles& p, const Spread& spread) {
   const Float4 zero = 0.f;
   const Float4 x0 = min(min(p.ax, p.bx), p.cx), x1 = max(max(p.ax, p.bx), p.cx);
   const Float4 y0 = min(min(p.ay, p.by), p.cy), y1 = max(max(p.ay, p.by), p.cy);
-  const SquareRise square(tool, x0, x1, y0, y1);
+  const SquareRise square(tool, spread, x0, x1, y0, y1);
   Float4 ex, ey;
   tool.touch_plane(p.slope_x, p.slope_y, ex, ey);
   Nearest nearest(ex, ey);
@@ -133,7 +150,7 @@ inline Float4 bound(const ProfileBound& tool, const FourTriangles& p, const OneP
     const auto at = [&](Float4 x, Float4 y) { return gx * x + gy * y; };
     return min(square(gx, gy), max(max(at(p.ax, p.ay), at(p.bx, p.by)), at(p.cx, p.cy)));
   };
-  return lesser_bound(tool, p.top, max(x0, zero - x1), max(y0, zero - y1), touched, qx, qy, plane, p.slope_x, p.slope_y,
+  return lesser_bound(tool, spread, p.top, max(x0, zero - x1), max(y0, zero - y1), touched, qx, qy, plane, p.slope_x, p.slope_y,
                       rise);
 }
 

@@ -2,10 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <type_traits>
+#include <limits>
 
 #include "kernel/parallel.hpp"
 #include "terrain/drop_cutter_hierarchy.hpp"
+#include "terrain/drop_cutter_part.hpp"
 
 namespace krepl {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 constexpr std::size_t tile_side = 32;  // places; the work of one block
 constexpr std::size_t most_side = 8;   // places that share a walk
 constexpr std::size_t least_together = 3;
+constexpr double steepest_shared = 4;  // slopes of what other tools than balls rest on
 
 /// Places [column, column + columns) x [row, row + rows) of a raster.
 struct Patch {
@@ -29,7 +31,7 @@ std::size_t together(double step, double radius, double cell, bool is_grid) {
 
 }  // namespace
 
-/// The work on one tile of a raster. Only balls share walks.
+/// The work on one tile of a raster.
 template <class Tree, class Tool>
 class DropCutter::TileWork {
  public:
@@ -48,7 +50,6 @@ class DropCutter::TileWork {
   }
 
  private:
-  static constexpr bool is_ball = std::is_same_v<Tool, drop::Ball>;
   template <class Visit>
   void for_each(const Patch& patch, const Visit& visit) const {
     for (std::size_t k = 0; k < patch.columns * patch.rows; ++k) {
@@ -60,7 +61,7 @@ class DropCutter::TileWork {
 
   /// Together, or else in parts.
   void run(const Patch& patch) {
-    if (!is_ball || patch.columns * patch.rows < least_together || trace_.triangle == Terrain::none)
+    if (patch.columns * patch.rows < least_together || trace_.triangle == Terrain::none)
       return run_one_by_one(patch);
     if (run_together(patch)) return;
     Patch first = patch, second = patch;
@@ -80,10 +81,6 @@ class DropCutter::TileWork {
 
   /// False if the list would become long.
   bool run_together(const Patch& patch) {
-    if constexpr (is_ball) return run_list(patch);
-    return false;
-  }
-  bool run_list(const Patch& patch) {
     const Point a = raster_.place(patch.column, patch.row);
     const Point b = raster_.place(patch.column + patch.columns - 1, patch.row + patch.rows - 1);
     const Point centre{a.x / 2 + b.x / 2, a.y / 2 + b.y / 2};
@@ -96,7 +93,7 @@ class DropCutter::TileWork {
     if (!survey(centre, half_x, half_y, slope, list)) return false;
     const double unit = tree_.inverse_unit();
     for_each(patch, [&](Point place, Contact& contact) {
-      drop::Search search = h_.begin(tree_, Hierarchy::over(place, tool_), trace_);
+      drop::ToolSearch<Tool> search = h_.begin(tree_, Hierarchy::over(place, tool_), trace_);
       const double dx = (place.x - centre.x) * unit, dy = (place.y - centre.y) * unit;
       list.run(tree_, search, float(dx), float(dy), float(slope.x * dx + slope.y * dy));
       contact = h_.end(tree_, search, trace_);
@@ -104,13 +101,27 @@ class DropCutter::TileWork {
     return true;
   }
 
+  /// A lower bound of all heights over the rectangle, and the list of what may be above it.
+  bool survey(Point centre, double half_x, double half_y, Point& slope, drop::Shortlist& list) const {
+    const Tool tool = Hierarchy::over(centre, tool_);
+    const drop::ToolSearch<Tool> first = h_.begin(tree_, tool, trace_);
+    if (first.feature() == Terrain::none) return false;
+    double least = 0;
+    if (!bound_below(first, half_x, half_y, slope, least)) return false;
+    const double unit = tree_.inverse_unit();
+    auto survey = tree_.survey(
+        tool, drop::ManyPlaces{drop::up(half_x * unit), drop::up(half_y * unit), float(slope.x), float(slope.y)});
+    survey.raise(least);
+    tree_.list(survey, list);
+    return !list.overflowed();
+  }
+
   /// A point that the ball about touches over the centre gives a lower bound of all heights over the rectangle: those of
   /// balls that touch this point, which form a sphere, a concave surface, so it lies above the least of its corners even after
   /// its tangent plane at the centre is taken off.
-  bool survey(Point centre, double half_x, double half_y, Point& slope, drop::Shortlist& list) const {
-    const drop::Search first = h_.begin(tree_, drop::ball_over(centre, radius_), trace_);
-    if (first.feature() == Terrain::none) return false;
+  bool bound_below(const drop::Search& first, double half_x, double half_y, Point& slope, double& bound) const {
     Hierarchy::Trace ignored;
+    const Point centre = first.tool.place;
     const Point3 p = h_.end(tree_, first, ignored).point;
     const double ex = p.x - centre.x, ey = p.y - centre.y, squared = radius_ * radius_;
     const auto sphere = [&](double x, double y) { return squared - (ex - x) * (ex - x) - (ey - y) * (ey - y); };
@@ -118,15 +129,27 @@ class DropCutter::TileWork {
         std::min({sphere(half_x, half_y), sphere(-half_x, half_y), sphere(half_x, -half_y), sphere(-half_x, -half_y)});
     if (least < 0.25 * squared) return false;
     const double rho = std::sqrt(sphere(0, 0));
-    const float slope_x = float(ex / rho), slope_y = float(ey / rho);
-    slope = {slope_x, slope_y};
+    slope = {float(ex / rho), float(ey / rho)};
     const auto relative = [&](double x, double y) { return p.z + std::sqrt(sphere(x, y)) - slope.x * x - slope.y * y; };
-    const double unit = tree_.inverse_unit();
-    drop::Survey survey = tree_.survey(centre, radius_, {drop::up(half_x * unit), drop::up(half_y * unit), slope_x, slope_y});
-    survey.raise(std::min(
-        {relative(half_x, half_y), relative(-half_x, half_y), relative(half_x, -half_y), relative(-half_x, -half_y)}));
-    tree_.list(survey, list);
-    return !list.overflowed();
+    bound = std::min(
+        {relative(half_x, half_y), relative(-half_x, half_y), relative(half_x, -half_y), relative(-half_x, -half_y)});
+    return true;
+  }
+
+  /// So does the triangle that another tool touches, as far as it is touched over all four corners.
+  bool bound_below(const drop::ProfileSearch& first, double half_x, double half_y, Point& slope, double& bound) const {
+    const drop::Part part = tree_.part(first.part());
+    const Point centre = first.tool.place, wanted = drop::touch_part(part, first.tool).slope;
+    if (!(std::max(std::abs(wanted.x), std::abs(wanted.y)) <= steepest_shared)) return false;
+    slope = {float(wanted.x), float(wanted.y)};
+    bound = std::numeric_limits<double>::infinity();
+    for (const Point off : {Point{half_x, half_y}, {-half_x, half_y}, {half_x, -half_y}, {-half_x, -half_y}}) {
+      const double height =
+          drop::touch_part(part, Hierarchy::over(Point{centre.x + off.x, centre.y + off.y}, first.tool)).height;
+      if (height == drop::nothing) return false;
+      bound = std::min(bound, height - slope.x * off.x - slope.y * off.y);
+    }
+    return true;
   }
 
   const Hierarchy& h_;

@@ -149,7 +149,10 @@ using Search = ToolSearch<Ball>;
 using ProfileSearch = ToolSearch<ProfileTool>;
 
 /// Places of a rectangle together.
-using Survey = Query<Ball, ManyPlaces>;
+template <class Tool>
+using ToolSurvey = Query<Tool, ManyPlaces>;
+using Survey = ToolSurvey<Ball>;
+using ProfileSurvey = ToolSurvey<ProfileTool>;
 
 /// Parts that may hold the highest touch, with their bounds; the most promising first.
 template <std::size_t capacity>

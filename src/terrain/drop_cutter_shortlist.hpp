@@ -1,8 +1,26 @@
 #pragma once
 
+#include <vector>
+
 #include "terrain/drop_cutter_search.hpp"
 
 namespace krepl::drop {
+
+/// The numbers of all triangles that may hold the highest touch over some place of a rectangle, however many.
+class LongList {
+ public:
+  bool overflowed() const { return false; }
+  const std::vector<Index>& numbers() const { return numbers_; }
+  void clear() { numbers_.clear(); }
+  template <class Number>
+  void add(const FourTriangles&, unsigned lanes, const float*, const Number& number) {
+    for (; lanes != 0; lanes &= lanes - 1) numbers_.push_back(number(unsigned(__builtin_ctz(lanes))));
+  }
+  void close() {}
+
+ private:
+  std::vector<Index> numbers_;
+};
 
 /// All triangles that may hold the highest touch over some place of a rectangle: few, so that every place looks at the list
 /// instead of the hierarchy.
@@ -51,7 +69,7 @@ class Shortlist {
 
   /// Looks at the triangles by tree.touch(), the place being (dx, dy) off the centre of the list, where the plane of the
   /// survey is `rise` higher than there.
-  template <class Tree>
+  template <class Tree, class Search>
   void run(const Tree& tree, Search& search, float dx, float dy, float rise) const {
     Candidates<capacity> found;
     for (std::size_t i = 0; i < count_ && bound_[i] + rise >= search.threshold_of_triangles(); i += 4) {

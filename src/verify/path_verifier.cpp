@@ -6,6 +6,7 @@
 
 #include "verify/solid.hpp"
 #include "verify/tally.hpp"
+#include "verify/tool_depth.hpp"
 
 namespace krepl::verify {
 namespace {
@@ -75,6 +76,8 @@ Result<PathReport> check_path(const ToolPath& path, const Terrain& part, const P
     return Error{ErrorCode::usage, "the radius is not a finite number greater than zero", "", ""};
   if (path.moves.empty()) return Error{ErrorCode::input, "holds no move", "", ""};
   const Solid solid(part);
+  std::optional<ToolDepth> tool;
+  if (options.cutter) tool.emplace(solid, *options.cutter);
   PathReport report;
   report.radius = options.radius, report.moves = path.moves.size(), report.triangles = solid.triangle_count();
   report.scale = std::max(options.radius, 2 * solid.half_extent());
@@ -96,7 +99,10 @@ Result<PathReport> check_path(const ToolPath& path, const Terrain& part, const P
       const std::uint64_t parts = 2 + std::uint64_t(report.step > 0 ? way.length() / report.step : 0);
       for (std::uint64_t k = 0; k <= parts; ++k) {
         const Space<Real> p = way.at(Real(k) / Real(parts));
-        tally.add(depth_at(solid, p, options, report.tolerance), report.tolerance, {p.x, p.y});
+        const Point3 origin = solid.origin();
+        const double depth = tool ? tool->at(Space<double>(Space<Real>{p.x - origin.x, p.y - origin.y, p.z - origin.z}), report.tolerance)
+                                  : depth_at(solid, p, options, report.tolerance);
+        tally.add(depth, report.tolerance, {p.x, p.y});
       }
     });
   };

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "krepl/context.hpp"
+#include "krepl/cutter.hpp"
 #include "krepl/error.hpp"
 #include "krepl/terrain.hpp"
 #include "krepl/tool_path.hpp"
@@ -13,6 +15,7 @@ namespace krepl::verify {
 
 struct PathCheckOptions {
   double radius = 0;  ///< of the ball
+  std::optional<Cutter> cutter;  ///< another tool than a ball, whose tip follows the path
   /// How far the ball's centre is above the points of the path.
   double lift = 0;
   double max_error = 0;  ///< what the path may cut into the part
@@ -37,7 +40,8 @@ struct PathReport {
 
 /// Whether a ball that follows the path stays out of the part (and of everything below its upper side): at many places
 /// of each move, ends and middle included, its centre's distance from all triangles and what is below them is R at
-/// least. Arcs are followed on the circle. Between places the ball can be deeper by half a step at most. `path` in the
+/// least. Of another cutter: no point of a triangle is inside of it. Arcs are followed on the circle. Between places the tool can be
+/// deeper by half a step at most. `path` in the
 /// part's coordinates. Errors: radius not finite and positive, no move, cancelled.
 Result<PathReport> check_path(const ToolPath& path, const Terrain& part, const PathCheckOptions& options,
                               const Context& context = {});

@@ -29,6 +29,10 @@ class Solid {
   const Box3& box() const { return tree_.box(); }
   std::size_t triangle_count() const { return triangles_.size(); }
   const std::array<std::uint32_t, 3>& triangle(std::size_t t) const { return triangles_[t]; }
+  std::array<Space<double>, 3> corners(std::size_t t) const {
+    return {corner(std::uint32_t(t), 0), corner(std::uint32_t(t), 1), corner(std::uint32_t(t), 2)};
+  }
+  const BoxHierarchy& tree() const { return tree_; }
 
   /// The feature with these points, relative to origin(); all none if a point is not a vertex of the input.
   FeatureKey key_of(const Shape& shape) const;

@@ -176,6 +176,48 @@ class Mill(support.CliTest):
                 self.assertGreaterEqual(nearest((x, y, z + 0.5), tri), 0.5 - 1e-9)
         self.succeed("verify", "out.ngc", "--against", "part.off", "--tool", "ball:1")
 
+    def test_other_cutters(self):
+        """The verifier follows every kind; the simulation and the interpreter agree."""
+        for tool in ("flat:3", "bull:3:0.5", "cone:3:90", "taper:3:40:0.5"):
+            for strategy in (("--step-over", "1"), ("--strategy", "waterline", "--step-down", "1")):
+                self.succeed("mill", "part.off", "out.ngc", "--tool", tool, *strategy)
+                text = self.text("out.ngc")
+                self.assertIn(tool + ", lengths in mm, Z is that of the tool's tip", text)
+                done = self.succeed("verify", "out.ngc", "--against", "part.off", "--tool", tool, "--samples", "5000")
+                self.assertIn("tool path of " + tool, done.stdout + done.stderr)
+                self.succeed("simulate", "out.ngc", "--against", "part.off", "--tool", tool, "--stock", "0,3.9", "--cell", "0.4") \
+                    if strategy[0] == "--step-over" else None
+        # A wider tool on the same way cuts into the part.
+        done = self.krepl("verify", "out.ngc", "--against", "part.off", "--tool", "taper:3.2:40:0.6", "--samples", "5000")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.fail_with(2, "tool 'flat:3' has no centre; give --control-point tip", "verify", "out.ngc", "--against", "part.off", "--tool", "flat:3",
+                       "--control-point", "centre", output="none")
+
+    def test_cutters_that_a_strategy_cannot_take(self):
+        for strategy in (("--strategy", "rough", "--step-over", "1", "--step-down", "1"), ("--strategy", "pencil")):
+            self.fail_with(2, "paths of tool 'flat:3' are made by strategies parallel and waterline only; use one of them, or --tool "
+                              "ball:DIAMETER",
+                           "mill", "part.off", "out.ngc", "--tool", "flat:3", *strategy, output="out.ngc")
+        self.fail_with(2, "heights of scallops are known of ball-nose cutters only, not of tool 'flat:3'; give the step-over",
+                       "mill", "part.off", "out.ngc", "--tool", "flat:3", "--scallop", "0.05", output="out.ngc")
+
+    def test_boundary_and_shallow_ground(self):
+        self.write("inside.wkt", "POLYGON ((3 1.5, 17 1.5, 17 8.5, 3 8.5, 3 1.5), (9 4, 11 4, 11 6, 9 6, 9 4))\n")
+        program = self.program("--boundary", "inside.wkt", "--safe-height", "20")
+        for motion, _, start, (x, y, z), _ in interpret(program)[1:]:
+            self.assertTrue(3 <= x <= 17 and 1.5 <= y <= 8.5, (x, y))
+            self.assertFalse(9 < x < 11 and 4 < y < 6, (x, y))
+        self.succeed("mill", "part.off", "out.ngc", "--tool", "ball:3", "--strategy", "waterline", "--step-down", "1",
+                     "--boundary", "inside.wkt")
+        lengths = [float(re.search(r"([0-9.]+) mm cut", self.succeed("mill", "part.off", "out.ngc", "--tool", "ball:1", "--step-over", "0.2",
+                                                                     *shallow).stdout).group(1)) for shallow in ((), ("--shallow", "30"))]
+        self.assertLess(lengths[1], 0.95 * lengths[0])
+        self.fail_with(2, "--shallow has no meaning for strategy waterline; it belongs to parallel", "mill", "part.off", "none.ngc", "--tool", "ball:3",
+                       "--strategy", "waterline", "--step-down", "1", "--shallow", "30", output="none.ngc")
+        self.write("line.wkt", "LINESTRING (3 1, 17 1)\n")
+        self.fail_with(1, "line.wkt: a boundary consists of polygons, feature 1; leave out lines and points", "mill", "part.off", "none.ngc", *OPTIONS, "--boundary", "line.wkt",
+                       output="none.ngc")
+
     def test_standard_output(self):
         done = self.succeed("mill", "part.off", "-", *OPTIONS)
         self.assertTrue(done.stdout.startswith("(part.off, parallel by krepl)\n"))
@@ -211,7 +253,6 @@ class Messages(support.CliTest):
         step = ("--step-over", "1")
         self.refuse("neither --step-over nor --scallop is given; give one of them")
         self.refuse("both --step-over and --scallop are given; give one of them", *step, "--scallop", "0.1")
-        self.refuse("paths of tool 'flat:3' are not made, only those of ball-nose cutters; give --tool ball:DIAMETER", *step, tool=("--tool", "flat:3"))
         self.refuse("--strategy 'spiral' is unknown; give one of parallel, rough, waterline, pencil", *step, "--strategy", "spiral")
         self.refuse("--post 'fanuc' is unknown; give one of linuxcnc, grbl", *step, "--post", "fanuc")
         self.refuse("--angle 'north' is not a finite number; give one", *step, "--angle", "north")

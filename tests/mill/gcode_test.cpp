@@ -181,6 +181,19 @@ TEST_F(Programs, AreWhatTheInterpreterDoes) {
     EXPECT_GT(waterlines->report.arcs, 10u);
     expect_read(waterlines->path, gcode);
   }
+  for (const char* tool : {"flat:3", "bull:3:0.5", "cone:3:60", "taper:3:40:0.5"}) {
+    const auto other = std::make_shared<const Terrain>(*block);
+    ParallelOptions passes;
+    passes.tool.cutter = *Cutter::parse(tool), passes.step_over = 1;
+    WaterlineOptions levels;
+    levels.tool = passes.tool, levels.step_down = 0.8;
+    output::GcodeOptions tip;
+    tip.tool_name = tool, tip.has_centre = false;
+    const auto along = mill_parallel(other, passes), waterlines = mill_waterline(other, levels);
+    ASSERT_TRUE(along && waterlines) << tool;
+    expect_read(along->path, tip);
+    expect_read(waterlines->path, tip);
+  }
   EXPECT_GT(arcs_, 50u);
   EXPECT_GT(moves_, 1000u);
 }

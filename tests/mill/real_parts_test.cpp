@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "input/terrain_reader.hpp"
-#include "mill/path_check.hpp"
+#include "mill/cutter_check.hpp"
 #include "support/environment.hpp"
 
 namespace krepl::test {
@@ -109,6 +109,44 @@ TEST_P(RealParts, AreNotCutIntoByWaterlines) {
   EXPECT_EQ(milled->report.lifted_moves, 0u);
   EXPECT_LE(check.deepest, 1e-9 * extent) << "at " << check.deepest_at.x << " " << check.deepest_at.y;
   EXPECT_LE(check.highest, 1e-9 * extent) << "at " << check.highest_at.x << " " << check.highest_at.y << " " << check.highest_at.z;
+}
+
+TEST(RealCutters, DoNotCutIntoAPart) {
+  const auto data = data_directory();
+  const char* const name = "mesh/demo.off";
+  if (!data || !std::filesystem::exists(*data / name)) GTEST_SKIP() << "no real data: set KREPL_DATA";
+  input::TerrainRequest request;
+  request.path = (*data / name).string();
+  const auto file = input::read_terrain(request);
+  ASSERT_TRUE(file) << file.error().text();
+  const Terrain& part = *file->terrain;
+  const double side = std::max(part.highest().x - part.lowest().x, part.highest().y - part.lowest().y), radius = side * 0.06;
+  const Cutter cutters[] = {*Cutter::flat(2 * radius), *Cutter::bull_nose(2 * radius, radius / 3), *Cutter::cone(2 * radius, 70),
+                            *Cutter::taper(2 * radius, 30, radius / 4)};
+  for (const Cutter& cutter : cutters) {
+    ParallelOptions o;
+    o.tool.cutter = cutter, o.zigzag = false;
+    o.accuracy.unit = std::pow(10.0, std::round(std::log10(side * 1e-6)));
+    o.accuracy.tolerance = 200 * o.accuracy.unit;
+    o.step_over = side / (5 * effort());
+    WaterlineOptions w;
+    w.tool = o.tool, w.accuracy = o.accuracy;
+    w.step_down = (part.highest().z - part.lowest().z) / 2.5;
+    const auto along = mill_parallel(file->terrain, o), around = mill_waterline(file->terrain, w);
+    ASSERT_TRUE(along) << cutter.text() << ": " << along.error().text();
+    ASSERT_TRUE(around) << cutter.text() << ": " << around.error().text();
+    EXPECT_EQ(around->report.lifted_moves, 0u) << cutter.text();
+    const double spacing = std::sqrt(8 * o.accuracy.tolerance * radius), feed = o.motion.feed;
+    const auto is_cut = [feed](const Move& m) { return m.kind != MoveKind::rapid && m.feed == feed; };
+    for (const bool passes : {true, false}) {
+      const TipHeights heights(file->terrain, cutter, 0, passes ? part.lowest().z : -1e300);
+      const TipCheck check =
+          check_tip(part, heights, passes ? along->path : around->path, o.accuracy.tolerance, spacing / 10, 10, is_cut);
+      EXPECT_GT(check.places, 500u);
+      EXPECT_LE(check.deepest, 1e-9 * std::max(part.extent(), radius)) << cutter.text() << " at " << check.deepest_at.x << " " << check.deepest_at.y;
+      EXPECT_EQ(check.far, 0u) << cutter.text() << " at " << check.far_at.x << " " << check.far_at.y << " " << check.far_at.z;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Mesh, RealParts, testing::ValuesIn(real_parts));
