@@ -16,6 +16,7 @@
 #include "krepl/cutter.hpp"
 #include "shape_options.hpp"
 #include "terrain_options.hpp"
+#include "tool_programs.hpp"
 #include "verbs.hpp"
 #include "verify_features.hpp"
 #include "verify/input_parts.hpp"
@@ -300,17 +301,13 @@ int verify_path(const VerifyOptions& options, Session& session) {
   return 0;
 }
 
-bool is_tool_path(const std::string& extension) {
-  return extension == "ngc" || extension == "nc" || extension == "gcode" || extension == "tap";
-}
-
 int run_verify(const VerifyOptions& given, Session& session) {
   VerifyOptions options = given;
   if (is_radius_expression(options.radius)) options.input.radius_expression = options.radius;
   if (!options.radius.empty() && !options.input.radius_field.empty())
     return session.fail("", {ErrorCode::usage, "--radius and --radius-field exclude each other", "", "give one of them"});
   const std::string extension = input::format_extension(options.result);
-  if (is_tool_path(extension)) return verify_path(options, session);
+  if (is_tool_path(options.result)) return verify_path(options, session);
   if (!options.tool.empty() || !options.control_point.empty())
     return session.fail("", {ErrorCode::usage, "--tool and --control-point belong to tool paths (.ngc)", "", ""});
   if (extension == "json" && input::looks_like_subdivision(options.result)) return verify_surface(options, session);
