@@ -63,7 +63,8 @@ Vec foot_on(Vec p, Vec a, Vec b) {
 
 Nearest segment_to_segment(const Curve& way, Vec p, Vec q) {
   Nearest nearest;
-  if (segments_cross(way.a, way.b, p, q)) nearest.offer(0, way.a);
+  if (segments_cross(way.a, way.b, p, q))
+    nearest.offer(0, way.a + (cross(p - way.a, q - p) / cross(way.b - way.a, q - p)) * (way.b - way.a));
   nearest.offer(distance_to_segment(way.a, p, q), way.a);
   nearest.offer(distance_to_segment(way.b, p, q), way.b);
   for (const Vec& v : {p, q}) nearest.offer(distance_to_segment(v, way.a, way.b), foot_on(v, way.a, way.b));

@@ -9,7 +9,7 @@
 #include "krepl/context.hpp"
 #include "krepl/error.hpp"
 #include "krepl/terrain.hpp"
-#include "verify/input_parts.hpp"
+#include "verify/obstacle.hpp"
 #include "verify/zone_verifier.hpp"
 
 namespace krepl::verify {
