@@ -43,7 +43,10 @@ class Stretch {
     // Nothing on the stretch is nearer than that.
     const double least = d - half;
     if (least >= report_.radius - report_.tolerance && least >= found_.clearance - fineness * report_.radius) return;
-    if (half <= shortest_ || d < report_.radius - report_.tolerance) {  // or broken already
+    // Once it is broken, only the worst place matters.
+    const bool broken = found_.clearance < report_.radius - report_.tolerance;
+    if (broken && least >= found_.clearance - fineness * report_.radius) return;
+    if (half <= shortest_) {
       found_.unproven = std::max(found_.unproven, half);
       return;
     }
