@@ -79,7 +79,8 @@ if "$krepl" terrain --help >/dev/null 2>&1; then
     expect 0 'proven between the places too' "$krepl" verify flight.csv --against hill.off --radius 1 --ceiling 8 --max-slope 0.75
     expect 1 'no steeper than allowed' "$krepl" verify flight.csv --against hill.off --radius 1 --max-slope 0.7
     expect 1 'below the ceiling' "$krepl" verify flight.csv --against hill.off --radius 1 --ceiling 7.9
-    expect 1 'the ball keeps away, near 5 5' "$krepl" verify flight.csv --against hill.off --radius 2.1
+    expect 1 'the ball keeps away, near' "$krepl" verify flight.csv --against hill.off --radius 2.1
+    expect 1 '^least clearance 1.6000' "$krepl" verify flight.csv --against hill.off --radius 2.1
     expect 1 'has no heights' "$krepl" verify way.wkt --against hill.off --radius 1
   fi
   printf 'OFF 5 4 0\n0 0 0\n10 0 1\n10 10 0\n0 10 2\n5 5 6\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n' >part.off

@@ -40,7 +40,7 @@ class PathPageTest(BrowserCase):
         with open(cls.path, "w", encoding="ascii") as out:
             out.write(GROOVE)
         cls.page = PAGES.path("groove.html")
-        cls.said = PAGES.run("view", cls.path, "-o", cls.page, "--input", cls.part, "--tool", "ball:2", "--stock", "0,4", "--cell", 0.1,
+        cls.said = PAGES.run("view", cls.path, "-o", cls.page, "--input", cls.part, "--tool", "ball:2", "--stock", "0,4", "--cell", 0.2,
                              "--title", "A <groove>")
 
     def open(self, fragment="", page=None):
@@ -82,7 +82,7 @@ class PathPageTest(BrowserCase):
         return [first_pixel(base64.b64decode(shot(x, y))) for x, y in at]
 
     def test_summary_title_and_legend(self):
-        self.assertRegex(self.said, r"groove\.html: 5 moves, 0\.3\d+ minutes, 10201 dexels, gouge 0, rest [\d.]+, [\d.]+ MB; open it")
+        self.assertRegex(self.said, r"groove\.html: 5 moves, 0\.3\d+ minutes, 2601 dexels, gouge 0, rest [\d.]+, [\d.]+ MB; open it")
         self.open()
         self.assertEqual(self.browser.evaluate("document.querySelector('h1').textContent"), "A <groove>")
         text = self.browser.evaluate("document.getElementById('panel').innerText")
@@ -167,7 +167,7 @@ class PathPageTest(BrowserCase):
         path, page = PAGES.path("deep.ngc"), PAGES.path("deep.html")
         with open(path, "w", encoding="ascii") as out:
             out.write(GROOVE.replace("Z2", "Z0.5"))
-        said = PAGES.run("view", path, "-o", page, "--input", self.part, "--tool", "ball:2", "--stock", "0,4", "--cell", 0.1)
+        said = PAGES.run("view", path, "-o", page, "--input", self.part, "--tool", "ball:2", "--stock", "0,4", "--cell", 0.2)
         self.assertIn("gouge 0.5", said)
         self.open("time=1&hide=behind,ahead,rapid,tool&theme=light", page)
         self.browser.evaluate(f"kreplView.setView([{AT[0] + 5}, {AT[1] + 5}, 2], [0, -0.01, 1, 25])")
