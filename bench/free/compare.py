@@ -8,6 +8,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from cases import machine, run_case, table  # noqa: E402
 
 PLANE = ["streets_tempe", "river_new_hope_epsg32617_mm", "roads_monaco_epsg32632_mm", "ne_10m_rivers_europe_epsg3035_m"]
+CELLS = {"jacksboro.asc": 92, "bigtujunga.asc": 30}  # sizes of their cells; the first is in degrees in its file
 TERRAIN = ["jacksboro.asc", "bigtujunga.asc", "made:1000000"]
 MANY, FEW = 100000, 50  # placements; for brute force
 
@@ -23,7 +24,7 @@ def main():
 
     def measure(where, way, source, radius, places):
         print(f"  {where} {way} {source} x{radius}", file=sys.stderr)
-        return run_case(a.program, a.limit, [where, way, source, radius, places])
+        return run_case(a.program, a.limit, [where, way, source, CELLS.get(Path(source).name, 0), radius, places])
 
     def cost(case, ours):
         if "failed" in case:

@@ -220,8 +220,9 @@ bool set_plane(Case& c, const std::string& way, const std::string& path, double 
   return true;
 }
 
-bool set_terrain(Case& c, const std::string& way, const std::string& path, double radius, std::size_t count) {
-  c.samples = path.starts_with("made:") ? made(std::strtoull(path.c_str() + 5, nullptr, 10)) : read_samples(path, 0);
+bool set_terrain(Case& c, const std::string& way, const std::string& path, double cell, double radius,
+                 std::size_t count) {
+  c.samples = path.starts_with("made:") ? made(std::strtoull(path.c_str() + 5, nullptr, 10)) : read_samples(path, cell);
   const auto terrain = c.samples.heights.empty() ? nullptr : as_grid(c.samples);
   if (!terrain) return false;
   c.items = terrain->triangle_count(), c.radius = radius * c.samples.cell();
@@ -236,9 +237,10 @@ bool set_terrain(Case& c, const std::string& way, const std::string& path, doubl
   return true;
 }
 
-int run(const std::string& where, const std::string& way, const std::string& path, double radius, std::size_t count) {
+int run(const std::string& where, const std::string& way, const std::string& path, double cell, double radius, std::size_t count) {
   Case c;
-  const bool read = where == "plane" ? set_plane(c, way, path, radius, count) : set_terrain(c, way, path, radius, count);
+  const bool read =
+      where == "plane" ? set_plane(c, way, path, radius, count) : set_terrain(c, way, path, cell, radius, count);
   if (!read) return std::fprintf(stderr, "free_case: %s cannot be taken\n", path.c_str()), 1;
   if (!c.way) return std::fprintf(stderr, "free_case: this build has no %s\n", way.c_str()), 3;
   std::vector<double> clearances(count);
@@ -257,15 +259,17 @@ int run(const std::string& where, const std::string& way, const std::string& pat
 }  // namespace bench
 
 int main(int argc, char** argv) {
-  if (argc != 6) {
+  if (argc != 7) {
     std::fprintf(stderr,
-                 "usage: free_case WHERE WAY FILE RADIUS PLACES\n"
+                 "usage: free_case WHERE WAY FILE CELL RADIUS PLACES\n"
                  "  WHERE   plane or terrain\n"
                  "  WAY     krepl, brute; in the plane also geos, components\n"
                  "  FILE    lines as WKT; an ESRI ASCII grid, or made:TRIANGLES\n"
+                 "  CELL    its size; 0 takes that of the file\n"
                  "  RADIUS  in mean segment lengths, or cells\n"
                  "  PLACES  how many placements\n");
     return 2;
   }
-  return bench::run(argv[1], argv[2], argv[3], std::strtod(argv[4], nullptr), std::strtoull(argv[5], nullptr, 10));
+  return bench::run(argv[1], argv[2], argv[3], std::strtod(argv[4], nullptr), std::strtod(argv[5], nullptr),
+                    std::strtoull(argv[6], nullptr, 10));
 }
