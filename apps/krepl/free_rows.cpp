@@ -25,6 +25,18 @@ void DiskRows::append_contact(std::string& text, const DiskFreeSpace::Contact& c
   text += ',' + std::to_string(contact.source.feature);
 }
 
+Status DiskRows::find_components(const std::vector<Place>& places, const Context& context) {
+  if (parts == nullptr) return std::monostate{};
+  found.resize(places.size());
+  return parts->at(places, found, context);
+}
+
+void DiskRows::append_component(std::string& text, std::size_t i) const {
+  if (parts == nullptr) return;
+  text += ',';
+  if (found[i] != FreeComponents::none) text += std::to_string(found[i]);
+}
+
 void BallRows::append_place(std::string& text, Point3 p) const { append_numbers(text, {p.x, p.y, p.z}); }
 
 void BallRows::append_contact(std::string& text, const BallFreeSpace::Contact& contact) const {

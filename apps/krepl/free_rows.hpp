@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "krepl/free_components.hpp"
 #include "krepl/free_space.hpp"
 
 namespace krepl::app {
@@ -16,9 +17,15 @@ struct DiskRows {
   static constexpr const char* contact_columns = "kind,px,py,feature";
 
   const Space& space;
+  const FreeComponents* parts = nullptr;  ///< if they are asked for
+  std::vector<std::uint32_t> found = {};  ///< components of a portion of placements
+
   static Place place(Point3 p) { return {p.x, p.y}; }
   void append_place(std::string& text, Place p) const;
   void append_contact(std::string& text, const Space::Contact& contact) const;
+  bool components() const { return parts != nullptr; }
+  Status find_components(const std::vector<Place>& places, const Context& context);
+  void append_component(std::string& text, std::size_t i) const;
 };
 
 /// Placements of a ball in space.
@@ -33,6 +40,9 @@ struct BallRows {
   static Place place(Point3 p) { return p; }
   void append_place(std::string& text, Place p) const;
   void append_contact(std::string& text, const Space::Contact& contact) const;
+  bool components() const { return false; }
+  Status find_components(const std::vector<Place>&, const Context&) { return std::monostate{}; }
+  void append_component(std::string&, std::size_t) const {}
 };
 
 }  // namespace krepl::app

@@ -16,8 +16,10 @@
 #include "krepl/cutter.hpp"
 #include "shape_options.hpp"
 #include "terrain_options.hpp"
+#include "tool_programs.hpp"
 #include "verbs.hpp"
 #include "verify_features.hpp"
+#include "verify_route.hpp"
 #include "verify/input_parts.hpp"
 #include "verify/path_verifier.hpp"
 #include "verify/profile_verifier.hpp"
@@ -31,7 +33,7 @@ namespace {
 struct VerifyOptions {
   std::string result;
   verify::InputRequest input;
-  std::string radius, max_error, tool, control_point;
+  std::string radius, max_error, tool, control_point, ceiling, max_slope;
   TerrainOptions terrain;
   ShapeArguments shape;
   std::uint64_t samples = 0;
@@ -62,6 +64,18 @@ Result<ZonesByRadius> group(std::vector<input::ResultZone> zones, const std::vec
 }
 
 }  // namespace
+
+Error violation(const char* what, double radius, const std::vector<verify::Check>& checks) {
+  Error error{ErrorCode::computation, "", "", ""};
+  for (const verify::Check& check : checks) {
+    if (check.ok()) continue;
+    if (!error.what.empty()) error.what += ", ";
+    error.what += check.name;
+    if (error.where.empty()) error.where = fmt::format("near {:.12g} {:.12g}", check.where.x, check.where.y);
+  }
+  error.what = fmt::format("is not the {} of radius {}: {}", what, radius, error.what);
+  return error;
+}
 
 void print_checks(Session& session, const std::vector<verify::Check>& checks) {
   session.summary(
@@ -100,19 +114,6 @@ void print(Session& session, const verify::SurfaceReport& report) {
   session.summary(fmt::format("area of the projection {:.12g}, S {:.6g}, tolerance {:.2g}", report.area, report.scale,
                               report.tolerance));
   print_checks(session, report.checks);
-}
-
-/// "is not the WHAT of radius R: names of the broken checks, near X Y".
-Error violation(const char* what, double radius, const std::vector<verify::Check>& checks) {
-  Error error{ErrorCode::computation, "", "", ""};
-  for (const verify::Check& check : checks) {
-    if (check.ok()) continue;
-    if (!error.what.empty()) error.what += ", ";
-    error.what += check.name;
-    if (error.where.empty()) error.where = fmt::format("near {:.12g} {:.12g}", check.where.x, check.where.y);
-  }
-  error.what = fmt::format("is not the {} of radius {}: {}", what, radius, error.what);
-  return error;
 }
 
 verify::ShapeQuestion shape_question(const ShapeOptions& shape, double radius) {
@@ -302,22 +303,23 @@ int verify_path(const VerifyOptions& options, Session& session) {
   return 0;
 }
 
-bool is_tool_path(const std::string& extension) {
-  return extension == "ngc" || extension == "nc" || extension == "gcode" || extension == "tap";
-}
-
 int run_verify(const VerifyOptions& given, Session& session) {
   VerifyOptions options = given;
   if (is_radius_expression(options.radius)) options.input.radius_expression = options.radius;
   if (!options.radius.empty() && !options.input.radius_field.empty())
     return session.fail("", {ErrorCode::usage, "--radius and --radius-field exclude each other", "", "give one of them"});
   const std::string extension = input::format_extension(options.result);
-  if (is_tool_path(extension)) return verify_path(options, session);
+  if (is_tool_path(options.result)) return verify_path(options, session);
   if (!options.tool.empty() || !options.control_point.empty())
     return session.fail("", {ErrorCode::usage, "--tool and --control-point belong to tool paths (.ngc)", "", ""});
   if (extension == "json" && input::looks_like_subdivision(options.result)) return verify_surface(options, session);
+  if (input::looks_like_route(options.result))
+    return verify_route({options.result, options.input, options.terrain, options.radius, options.max_error, options.ceiling,
+                         options.max_slope, options.samples}, session);
+  if (!options.ceiling.empty() || !options.max_slope.empty())
+    return session.fail("", {ErrorCode::usage, "--ceiling and --max-slope belong to routes", "", ""});
   if (!options.terrain.split.empty() || !options.terrain.z_scale.empty() || options.terrain.request.band != 0)
-    return session.fail("", {ErrorCode::usage, "--split, --z-scale and --band belong to subdivisions (.json)", "", ""});
+    return session.fail("", {ErrorCode::usage, "--split, --z-scale and --band belong to subdivisions (.json) and routes over a terrain", "", ""});
   return extension == "csv" ? verify_profile(options, session) : verify_zones(options, session);
 }
 
@@ -327,7 +329,7 @@ void add_verify_verb(CLI::App& program, Session& session) {
   auto options = std::make_shared<VerifyOptions>();
   CLI::App* verb = program.add_subcommand("verify", "Re-check a result against its input by independent brute force");
   verb->add_option("RESULT", options->result,
-                   "Zone (vector file), profile (.csv), subdivision (.json) or tool path (.ngc) to check")
+                   "Zone or route (vector file, .csv), profile (.csv), subdivision (.json) or tool path (.ngc) to check")
       ->required();
   verb->add_option("--against", options->input.path, "The input that the result was made from")
       ->required()
@@ -359,6 +361,10 @@ void add_verify_verb(CLI::App& program, Session& session) {
   verb->add_option("--control-point", options->control_point,
                    "Tool paths: what Z is the height of, tip (default) or centre")
       ->type_name("NAME");
+  verb->add_option("--ceiling", options->ceiling, "Routes over a terrain: height that the ball's centre must not exceed")
+      ->type_name("Z");
+  verb->add_option("--max-slope", options->max_slope, "Routes over a terrain: largest rise over horizontal way allowed")
+      ->type_name("SLOPE");
   verb->add_option("--z-scale", options->terrain.z_scale, "Terrains: as the result was made")->type_name("FACTOR");
   verb->add_option("--split", options->terrain.split, "Rasters: as the result was made")->type_name("NAME");
   verb->add_option("--band", options->terrain.request.band, "Rasters: as the result was made")

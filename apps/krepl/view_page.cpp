@@ -16,6 +16,11 @@ bool ViewOptions::has_surface_options() const {
          terrain.request.band != 0;
 }
 
+bool ViewOptions::has_program_options() const {
+  return !program.tool.empty() || !program.before.empty() || !program.stock.empty() || !program.cell.empty() ||
+         !program.unit.empty() || !program.control_point.empty();
+}
+
 std::string page_title(const ViewOptions& options) {
   return options.title.empty() ? std::filesystem::path(options.result).filename().string() : options.title;
 }

@@ -4,6 +4,7 @@
 
 #include "input/network_reader.hpp"
 #include "terrain_options.hpp"
+#include "tool_programs.hpp"
 
 namespace krepl::app {
 
@@ -12,10 +13,12 @@ class Session;
 struct ViewOptions {
   std::string result, output, title;
   input::NetworkRequest input;  // path empty: none
-  TerrainOptions terrain;       // of surfaces, beside `input`
+  TerrainOptions terrain;       // of surfaces and tool paths, beside `input`
+  ProgramOptions program;       // of tool paths, beside `result`
   std::string max_error;        // of surfaces, as given
 
   bool has_surface_options() const;
+  bool has_program_options() const;
 };
 
 std::string page_title(const ViewOptions& options);
@@ -32,5 +35,6 @@ int write_page(const ViewOptions& options, const std::string& html, const std::s
 /// Whether a result is a surface: a subdivision as .json or .gpkg.
 bool is_surface(const std::string& path);
 int run_surface_view(const ViewOptions& options, Session& session);
+int run_path_view(const ViewOptions& options, Session& session);
 
 }  // namespace krepl::app

@@ -77,6 +77,11 @@ int run_view(const ViewOptions& options, Session& session) {
 }
 
 int run_any_view(const ViewOptions& options, Session& session) {
+  if (is_tool_path(options.result)) return run_path_view(options, session);
+  if (options.has_program_options())
+    return session.fail("", {ErrorCode::usage,
+                             "--tool, --before, --stock, --cell, --unit and --control-point belong to tool paths", "",
+                             "give a program, .ngc or .gcode"});
   if (is_surface(options.result)) return run_surface_view(options, session);
   if (options.has_surface_options()) {
     return session.fail("", {ErrorCode::usage, "--max-error, --crs, --z-scale, --split and --band belong to surfaces",
@@ -91,11 +96,12 @@ void add_view_verb(CLI::App& program, Session& session) {
   auto options = std::make_shared<ViewOptions>();
   CLI::App* verb = program.add_subcommand("view", "One self-contained web page that shows a result");
   verb->add_option("RESULT", options->result,
-                   "A zone in any vector format, a profile (.csv), or a surface (.json, .gpkg)")
+                   "A zone in any vector format, a profile (.csv), a surface (.json, .gpkg), or a tool path (.ngc, .nc, "
+                   ".gcode, .tap)")
       ->required();
   verb->add_option("-o,--output", options->output, "The page to write, or -")->required()->type_name("PAGE.html");
   verb->add_option("--input", options->input.path,
-                   "Show the input too: the lines, or the terrain of a profile or surface")
+                   "Show the input too: the lines, the terrain of a profile or surface, or the part of a tool path")
       ->type_name("IN");
   verb->add_option("--layer", options->input.layer, "Layer of the input to read")->type_name("NAME");
   verb->add_option("--where", options->input.where, "Features of the input to read, as SQL")->type_name("CONDITION");
@@ -103,16 +109,20 @@ void add_view_verb(CLI::App& program, Session& session) {
                    "Plane coordinate system to project the input to (default: the result's)")
       ->type_name("EPSG:n|auto");
   verb->add_option("--crs", options->terrain.request.crs,
-                   "Surface: coordinate system of the input, in place of what it says")
+                   "Surface, tool path: coordinate system of the input, in place of what it says")
       ->type_name("EPSG:n");
-  verb->add_option("--z-scale", options->terrain.z_scale, "Surface: as given to krepl terrain")->type_name("FACTOR");
-  verb->add_option("--split", options->terrain.split, "Surface: as given to krepl terrain")->type_name("NAME");
-  verb->add_option("--band", options->terrain.request.band, "Surface: as given to krepl terrain")
+  verb->add_option("--z-scale", options->terrain.z_scale, "Surface, tool path: as given to krepl terrain")->type_name("FACTOR");
+  verb->add_option("--split", options->terrain.split, "Surface, tool path: as given to krepl terrain")->type_name("NAME");
+  verb->add_option("--band", options->terrain.request.band, "Surface, tool path: as given to krepl terrain")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   verb->add_option("--max-error", options->max_error,
                    "Surface: largest distance of the triangles that are drawn from it (default: radius / 200)")
       ->type_name("LENGTH");
+  verb->add_option("--tool", options->program.tool,
+                   "Tool path: ball:D, flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE or taper:D:ANGLE:TIP_RADIUS")
+      ->type_name("TOOL");
+  add_program_options(*verb, options->program, "so that there are some 90,000");
   verb->add_option("--title", options->title, "Title of the page (default: name of the file)")->type_name("TEXT");
   session.add_common_options(*verb);
   session.on_run(*verb, [options, &session] { return run_any_view(*options, session); });

@@ -4,7 +4,7 @@
 
 namespace krepl::input {
 
-Result<PlaceStream> PlaceStream::open(const std::string& path, bool with_z, const Context& context) {
+Result<PlaceStream> PlaceStream::open(const std::string& path, bool with_z, const Context& context, std::string_view label) {
   Result<ByteStream> bytes = ByteStream::open(path);
   if (!bytes) return bytes.error();
   PlaceStream stream(std::move(*bytes), with_z);
@@ -23,6 +23,8 @@ Result<PlaceStream> PlaceStream::open(const std::string& path, bool with_z, cons
     if (!column) return column.error();
     stream.column_[k] = *column;
   }
+  if (!label.empty())
+    if (const Result<std::size_t> column = stream.table_.column(label)) stream.label_column_ = *column;
   return stream;
 }
 
@@ -59,13 +61,15 @@ Result<Point3> PlaceStream::place() const {
   return p;
 }
 
-Status PlaceStream::next(std::vector<Point3>& places, const Context& context) {
+Status PlaceStream::next(std::vector<Point3>& places, std::vector<std::string>* labels, const Context& context) {
   places.clear();
+  if (labels != nullptr) labels->clear();
   for (;;) {
     while (table_.next()) {
       const Result<Point3> p = place();
       if (!p) return p.error();
       places.push_back(*p);
+      if (labels != nullptr) labels->emplace_back(label_column_ ? table_.field(*label_column_) : std::string_view());
     }
     count_ += places.size();
     if (!places.empty()) return std::monostate{};

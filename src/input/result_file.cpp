@@ -5,35 +5,13 @@
 #include <unordered_map>
 
 #include "input/geometry_source.hpp"
+#include "input/ogr_curve.hpp"
 #include "ogr/message_capture.hpp"
 #include "ogr/spatial_reference.hpp"
 
 namespace krepl::input {
 
 namespace {
-
-Point point_at(const OGRSimpleCurve& curve, int i) { return {curve.getX(i), curve.getY(i)}; }
-
-void append_pieces(const OGRCurve& curve, std::vector<ResultPiece>& pieces) {
-  switch (wkbFlatten(curve.getGeometryType())) {
-    case wkbCompoundCurve:
-      for (const OGRCurve* part : *curve.toCompoundCurve()) append_pieces(*part, pieces);
-      return;
-    case wkbCircularString: {
-      const OGRSimpleCurve& arcs = *curve.toSimpleCurve();
-      for (int i = 0; i + 2 < arcs.getNumPoints(); i += 2) {
-        pieces.push_back({true, point_at(arcs, i), point_at(arcs, i + 1), point_at(arcs, i + 2)});
-      }
-      return;
-    }
-    default: {
-      const OGRSimpleCurve& line = *curve.toSimpleCurve();
-      for (int i = 0; i + 1 < line.getNumPoints(); ++i) {
-        pieces.push_back({false, point_at(line, i), {}, point_at(line, i + 1)});
-      }
-    }
-  }
-}
 
 ResultRing ring_of(const OGRCurve& curve) {
   ResultRing ring;
@@ -68,13 +46,6 @@ Status append_polygons(const OGRGeometry& geometry, const std::string& place, st
       return Error{ErrorCode::input, std::string("geometry of type ") + geometry.getGeometryName() + " is not a zone", place,
                    "give polygons"};
   }
-}
-
-std::optional<double> number_field(const OGRFeature* feature, const char* name) {
-  if (feature == nullptr) return std::nullopt;
-  int index = feature->GetFieldIndex(name);
-  if (index < 0 || !feature->IsFieldSetAndNotNull(index)) return std::nullopt;
-  return feature->GetFieldAsDouble(index);
 }
 
 std::int64_t integer_field(const OGRFeature& feature, const char* name) {

@@ -13,4 +13,9 @@ extern const char* const surface_template;
 extern const char* const surface_style;
 extern const char* const surface_script;
 
+/// The same for tool paths, from src/view/surface/page/path.
+extern const char* const path_template;
+extern const char* const path_style;
+extern const char* const path_script;
+
 }  // namespace krepl::view

@@ -1,6 +1,7 @@
 """krepl free: rows, messages, and clearances by brute force."""
 import csv
 import io
+import json
 import math
 import random
 import subprocess
@@ -99,6 +100,78 @@ class Free(support.CliTest):
                          "b,0,0,0.3,28,5,edge,30,5,2\n" f"c,0,1,{7 / 18!r},-2,10,edge,0,10,1\n"
                          "d,0,0,0,2,2,edge,2,0,1\ne,1,,,,,,,,\n")
 
+    def test_motions_from_vector_files_are_those_of_the_csv(self):
+        """More of them than one portion holds; also as a pipe, and on any number of threads."""
+        self.write("yard.wkt", YARD)
+        rng = random.Random(8)
+        ways = [[(rng.uniform(-9, 49), rng.uniform(-9, 29)) for _ in range(45)] for _ in range(3000)]
+        rows = "".join(f"{m},{x!r},{y!r}\n" for m, way in enumerate(ways, 1) for x, y in way)
+        self.write("ways.csv", "motion,x,y\n" + rows)
+        self.write("ways.wkt", "".join("LINESTRING (" + ", ".join(f"{x!r} {y!r}" for x, y in way) + ")\n" for way in ways))
+        done = self.succeed("free", "yard.wkt", "--radius", "2", "--motion", "ways.csv", "-o", "csv.csv", "--threads", "1")
+        self.assertRegex(done.stdout, r"^3000 motions: \d+ free, \d+ cut in; ")
+        self.succeed("free", "yard.wkt", "--radius", "2", "--motion", "ways.wkt", "-o", "wkt.csv", "--threads", "3")
+        self.assertEqual(len(self.text("csv.csv").splitlines()), 3001)
+        self.assertEqual(self.text("csv.csv"), self.text("wkt.csv"))
+        piped = subprocess.run(self.command("free", "yard.wkt", "--radius", "2", "--motion", "-", "-o", "-"), input="motion,x,y\n" + rows,
+                               cwd=self.directory, capture_output=True, text=True, timeout=60)
+        self.assertEqual(piped.stdout, self.text("csv.csv"))
+
+    def test_motions_of_layers(self):
+        self.write("yard.wkt", YARD)
+        self.write("ways.geojson", """{"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:25832"}}, "features": [
+          {"type": "Feature", "id": 7, "properties": {"kind": "a"}, "geometry": {"type": "MultiLineString",
+            "coordinates": [[[25, -5], [25, 30]], [[25, 5], [35, 5]]]}},
+          {"type": "Feature", "id": 9, "properties": {"kind": "b"}, "geometry": {"type": "LineString", "coordinates": [[2, 2], [2, 3]]}}]}""")
+        free = ("free", "yard.wkt", "--radius", "2", "--motion", "ways.geojson", "-o", "out.csv")
+        self.succeed(*free)
+        self.assertEqual(self.text("out.csv"), "motion,free,leg,t,x,y,kind,px,py,feature\n7.1,1,,,,,,,,\n"
+                         "7.2,0,0,0.3,28,5,edge,30,5,2\n9,0,0,0,2,2,edge,2,0,1\n")
+        self.succeed(*free, "--motion-where", "kind = 'b'")
+        self.assertEqual(len(self.text("out.csv").splitlines()), 2)
+
+    def test_motions_that_are_wrong(self):
+        self.write("yard.wkt", YARD)
+        self.write("flat.asc", FLAT)
+        self.write("area.wkt", "LINESTRING (0 0, 1 1)\nPOLYGON ((0 0, 1 0, 1 1, 0 0))\n")
+        self.write("flat.wkt", "LINESTRING (0 0, 1 1)\n")
+        self.write("degrees.geojson", '{"type": "LineString", "coordinates": [[9, 48], [9.1, 48]]}')
+        for file, message in {"area.wkt": "area.wkt: geometry of type POLYGON is not a motion, line 2; give lines of straight pieces",
+                              "degrees.geojson": "degrees.geojson: has coordinates in degrees"}.items():
+            done = self.krepl("free", "yard.wkt", "--radius", "1", "--motion", file, "-o", "out.csv")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("krepl: " + message, done.stderr)
+        self.fail_with(1, "flat.wkt: the motion has no heights, line 1; over a terrain give lines with Z",
+                       "free", "flat.asc", "--radius", "1", "--motion", "flat.wkt", "-o", "out.csv", output="out.csv")
+
+    def test_components(self):
+        self.write("yard.wkt", YARD)
+        self.write("at.csv", "x,y\n10,10\n2,10\n27,5\n8,8\n44,8\n")
+        self.succeed("free", "yard.wkt", "--radius", "2", "--components", "--at", "at.csv", "-o", "out.csv", "--threads", "2")
+        rows = self.rows(self.text("out.csv"), DISK + ",component")
+        self.assertEqual([row["component"] for row in rows], ["1", "", "0", "1", "0"])
+        done = self.succeed("free", "yard.wkt", "--radius", "2", "--components", "-o", "parts.wkt")
+        self.assertRegex(done.stdout, r"^2 components of free space, one of them unbounded; ")
+        outside, inside = self.text("parts.wkt").splitlines()
+        self.assertIn("MULTISURFACE", inside)
+        done = self.succeed("free", "yard.wkt", "--radius", "2", "--components", "-o", "parts.geojson")
+        features = json.loads(self.text("parts.geojson"))["features"]
+        self.assertEqual([f["properties"]["component"] for f in features], [0, 1])
+        self.assertAlmostEqual(features[1]["properties"]["area"], 36, 6)  # the court of 10 x 10, less 2 on each side
+        (ring,) = features[1]["geometry"]["coordinates"][0]
+        self.assertEqual(sorted(tuple(round(c, 6) for c in p) for p in ring[:-1]), [(7, 7), (7, 13), (13, 7), (13, 13)])
+        self.assertEqual(len(features[0]["geometry"]["coordinates"][0]), 4, "a rectangle and three islands")
+        shoelace = lambda ring: sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:])) / 2
+        self.assertAlmostEqual(features[0]["properties"]["area"] / sum(map(shoelace, features[0]["geometry"]["coordinates"][0])), 1, 3)
+        usage = {"--components says nothing of motions": ("--motion", "at.csv"), "--format and --max-error": ("--at", "at.csv", "--format", "wkt")}
+        for message, rest in usage.items():
+            done = self.krepl("free", "yard.wkt", "--radius", "2", "--components", *rest, "-o", "o.csv")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(message, done.stderr)
+        self.write("flat.asc", FLAT)
+        self.fail_with(2, "--components is for vector files, but IN is a terrain; leave it out",
+                       "free", "flat.asc", "--radius", "1", "--components", "-o", "out.gpkg", output="out.gpkg")
+
     def test_motions_over_a_terrain(self):
         self.write("flat.asc", FLAT)
         self.write("ways.csv", "x,y,z\n2.25,2.125,9.75\n2.25,2.125,1.75\n")
@@ -136,7 +209,8 @@ class Free(support.CliTest):
             self.assertEqual(done.returncode, 2, radius)
             self.assertIn("radius", done.stderr)
         either = "give either --at or --motion; placements, or polylines of them"
-        self.fail_with(2, either, "free", "flat.asc", "--radius", "1", "-o", "out.csv", output="out.csv")
+        self.fail_with(2, "give --at, --motion or --components; placements, polylines of them, or neither for the parts of free space",
+                       "free", "flat.asc", "--radius", "1", "-o", "out.csv", output="out.csv")
         self.fail_with(2, either, "free", "flat.asc", "--radius", "1", "--motion", "at.csv", *rest, output="out.csv")
         self.fail_with(2, "--z-scale is for terrains, but IN is neither a raster nor a mesh; leave it out",
                        "free", "yard.wkt", "--radius", "1", "--z-scale", "2", *rest, output="out.csv")

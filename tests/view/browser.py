@@ -7,10 +7,12 @@ import json
 import os
 import select
 import shutil
+import struct
 import subprocess
 import tempfile
 import time
 import unittest
+import zlib
 
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--disable-extensions", "--mute-audio", "--remote-debugging-pipe",
@@ -20,6 +22,19 @@ FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-
 def program():
     """Path of the browser, or None."""
     return os.environ.get("KREPL_BROWSER") or shutil.which("chromium") or shutil.which("chromium-browser")
+
+
+def first_pixel(png):
+    """(r, g, b) of the first pixel of a PNG of 8 bits a channel; no filter changes that one."""
+    packed, at = b"", 8
+    while at < len(png):
+        size, kind = struct.unpack(">I4s", png[at:at + 8])
+        if kind == b"IHDR":
+            assert struct.unpack(">BB", png[at + 16:at + 18]) in ((8, 2), (8, 6))
+        elif kind == b"IDAT":
+            packed += png[at + 8:at + 8 + size]
+        at += 12 + size
+    return tuple(zlib.decompress(packed)[1:4])
 
 
 class Browser:

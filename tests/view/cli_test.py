@@ -78,6 +78,27 @@ class ViewTest(unittest.TestCase):
             self.assertEqual(data["faces"]["plane"], 4)
             self.assertEqual(data["layers"][1]["triangles"], 4)
 
+    def test_tool_path(self):
+        self.write("path.ngc", "G21 G90\nG0 X0 Y4 Z9\nG1 X9 Z6 F100\nG2 X0 Y4 I-4.5 J0\n")
+        self.surface("roof.json")
+        run = self.view_surface("path.ngc", "-o", "page.html", "--tool", "flat:2")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertRegex(run.stdout, r"^page\.html: 2 moves, 0\.\d+ minutes, [\d.]+ MB; open it in a browser$")
+        cut = ("path.ngc", "--tool", "ball:2", "--input", "roof.off", "--stock", "1,7", "--cell", "0.5")
+        run = self.view(*cut, "-o", "page.html", "--before", "path.ngc,flat:1")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertRegex(run.stdout, r"2 moves, 0\.\d+ minutes, 529 dexels, gouge 0, rest \d")
+        with open(self.path("page.html"), encoding="utf-8") as page:
+            data = json.loads(re.search(r'id="page">(.*?)</script>', page.read())[1])
+        self.assertEqual((data["tool"]["text"], data["material"]["columns"], data["path"]["moves"]), ("ball:2", 23, 2))
+        self.assertEqual(self.view(*cut, "-o", "-", "--threads", "1").stdout, self.view(*cut, "-o", "-", "--threads", "2").stdout)
+        self.fails(2, "does not tell its tool", "path.ngc")
+        self.fails(2, "give the part with --input", "path.ngc", "--tool", "ball:2", "--cell", "1")
+        self.fails(2, "belong to tool paths", "zone.wkt", "--tool", "ball:2")
+        self.fails(1, "nosuch.off", "path.ngc", "--tool", "ball:2", "--input", "nosuch.off")
+        self.write("bad.ngc", "G21 G90\nG0 X0 Y4 Z9\nG81 X9\n")
+        self.fails(1, "line 3", "bad.ngc", "--tool", "ball:2")
+
     def test_options_of_the_other_kind(self):
         self.surface("roof.json")
         self.fails(2, "belong to zones", "roof.json", "--layer", "x")

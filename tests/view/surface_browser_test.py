@@ -7,31 +7,16 @@ hands and keys.
 import base64
 import os
 import random
-import struct
 import sys
 import unittest
-import zlib
 
 sys.dont_write_bytecode = True  # no __pycache__ among the sources
-from browser import BrowserCase, program
+from browser import BrowserCase, first_pixel, program
 from surface_pages import Pages
 
 KREPL, DIRECTORY = sys.argv[1:3]
 PAGES = Pages(KREPL, DIRECTORY)
 AT = (412000, 5312000)  # far from zero, as real coordinates are
-
-
-def first_pixel(png):
-    """(r, g, b) of the first pixel of a PNG of 8 bits a channel; no filter changes that one."""
-    packed, at = b"", 8
-    while at < len(png):
-        size, kind = struct.unpack(">I4s", png[at:at + 8])
-        if kind == b"IHDR":
-            assert struct.unpack(">BB", png[at + 16:at + 18]) in ((8, 2), (8, 6))
-        elif kind == b"IDAT":
-            packed += png[at + 8:at + 8 + size]
-        at += 12 + size
-    return tuple(zlib.decompress(packed)[1:4])
 
 
 def hue(color):

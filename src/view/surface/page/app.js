@@ -126,15 +126,13 @@ export class App {
       },
       fit: () => this.scene.fit(undefined, this.margins),
       top: () => this.lookDown(),
-      near: () => this.goToBall(),
-      cut: () => this.setCut(!this.cut.on),
-      shiftCut: sign => {
-        this.panel.follow.checked = this.cut.follow = false;
-        this.moveCut({offset: this.cut.offset + sign * 0.1 * this.page.radius});
-      },
-      spinCut: degrees => {
-        const angle = this.cut.angle + degrees;
-        this.moveCut({angle: angle > 90 ? angle - 180 : angle < -90 ? angle + 180 : angle});
+      keys: {
+        b: () => this.goToBall(),
+        x: () => this.setCut(!this.cut.on),
+        '[': () => this.shiftCut(-1),
+        ']': () => this.shiftCut(1),
+        ',': () => this.spinCut(5),
+        '.': () => this.spinCut(-5),
       },
     };
   }
@@ -164,6 +162,16 @@ export class App {
     if (on && this.cut.follow && this.ball.rest) this.cut.at = [this.ball.rest.x, this.ball.rest.y];
     this.cut.change({on});
     this.flat.reset();
+  }
+
+  shiftCut(sign) {
+    this.panel.follow.checked = this.cut.follow = false;
+    this.moveCut({offset: this.cut.offset + sign * 0.1 * this.page.radius});
+  }
+
+  spinCut(degrees) {
+    const angle = this.cut.angle + degrees;
+    this.moveCut({angle: angle > 90 ? angle - 180 : angle < -90 ? angle + 180 : angle});
   }
 
   moveCut(values) {

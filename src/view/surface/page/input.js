@@ -6,7 +6,7 @@ const CLICK = 5;  // pixels that a hand may shake
 const TURN = Math.PI / 24;
 
 export class Input {
-  // actions: rollTo(px, py), roll(dx, dy) in tenths of the radius, and those of the keys.
+  // actions: rollTo(px, py), roll(dx, dy) in tenths of the radius, hold(), release(), fit(), top(), and `keys`: what else keys do.
   constructor(canvas, scene, actions) {
     Object.assign(this, {canvas, scene, actions});
     canvas.addEventListener('pointerdown', event => {
@@ -57,17 +57,12 @@ export class Input {
       '-': () => this.zoom(1.4),
       '0': actions.fit,
       t: actions.top,
-      b: actions.near,
-      x: actions.cut,
-      '[': () => actions.shiftCut(-1),
-      ']': () => actions.shiftCut(1),
-      ',': () => actions.spinCut(5),
-      '.': () => actions.spinCut(-5),
       a: () => this.roll(-step, 0),
       d: () => this.roll(step, 0),
       w: () => this.roll(0, step),
       s: () => this.roll(0, -step),
       Escape: actions.release,
+      ...actions.keys,
     };
     const act = keys[event.key] ?? keys[event.key.toLowerCase()];
     if (!act) return;

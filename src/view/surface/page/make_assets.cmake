@@ -1,8 +1,10 @@
-# cmake -DTEMPLATE= -DSTYLE= -DBASE_STYLE= -DSCRIPT= -DPACKAGES= -DSOURCE= -DTARGET= -P make_assets.cmake: the page's parts as C++ strings.
+# cmake -DPAGE= -DTEMPLATE= -DSTYLES= -DSCRIPT= -DPACKAGES= -DSOURCE= -DTARGET= -P make_assets.cmake: the page's parts as C++ strings.
 file(READ ${TEMPLATE} PAGE_TEMPLATE)
-file(READ ${BASE_STYLE} PAGE_STYLE)
-file(READ ${STYLE} style)
-string(APPEND PAGE_STYLE "${style}")
+set(PAGE_STYLE "")
+foreach(file ${STYLES})
+  file(READ ${file} style)
+  string(APPEND PAGE_STYLE "${style}")
+endforeach()
 file(READ ${SCRIPT} PAGE_SCRIPT)
 # Their licences ask to be kept with every copy.
 if(NOT PAGE_SCRIPT STREQUAL "")

@@ -1,8 +1,8 @@
 // What follows # in the address: the view, for links and for pictures without a hand.
 
-const NUMBERS = ['at', 'ball', 'cut', 'eye', 'opacity'];
+const NUMBERS = ['at', 'ball', 'cut', 'eye', 'opacity', 'time'];
 
-// #at=X,Y&ball=X,Y&cut=ANGLE,OFFSET&eye=EAST,NORTH,UP,DISTANCE&opacity=0.5&theme=dark&hide=seam,ground&figure
+// #at=X,Y&ball=X,Y&cut=ANGLE,OFFSET&eye=EAST,NORTH,UP,DISTANCE&opacity=0.5&theme=dark&hide=seam,ground&figure; of tool paths #time=MINUTES
 export function parseFragment(fragment) {
   const state = {hide: [], figure: false, theme: null};
   for (const part of fragment.replace(/^#/, '').split('&')) {

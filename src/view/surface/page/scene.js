@@ -25,9 +25,11 @@ function drawsInSoftware() {
 }
 
 export class Scene {
-  constructor(canvas, page, layers) {
+  // boxes: [low, high] of what else is shown
+  constructor(canvas, page, layers, boxes = []) {
     this.page = page;
     this.layers = layers;
+    this.boxes = boxes;
     // Without graphics hardware, smooth edges take twice the time: then pictures at rest have twice the pixels a side
     // instead.
     const software = drawsInSoftware();
@@ -48,8 +50,10 @@ export class Scene {
         layer => layer.role === 'surface' ? new TileSet(layer, page.radius, this.surfaceMaterial, this.lineMaterials) :
                                             new TileSet(layer, 0, this.groundMaterial, null));
     for (const set of this.sets) this.scene.add(set.group);
-    this.surface = this.sets[0];
-    this.ground = this.sets[1] ?? null;
+    const set = role => this.sets.find(({layer}) => layer.role === role) ?? null;
+    this.surface = set('surface');
+    this.ground = set('terrain');
+    this.covered = () => this.surface && this.shown.surface && this.opacity === 1 && !this.cutting;  // the ground is
     this.shown = {surface: true, ground: true};
     this.opacity = 1;
     this.drawn = {tiles: 0, triangles: 0, segments: 0, waiting: true};
@@ -75,7 +79,7 @@ export class Scene {
 
   // Whole numbers of the page are relative to its origin; the scene's are too, and never large beside what is shown.
   measure() {
-    const boxes = this.layers.map(layer => [layer.low3, layer.high3]);
+    const boxes = [...this.layers.map(layer => [layer.low3, layer.high3]), ...this.boxes];
     this.low = [0, 1, 2].map(i => Math.min(...boxes.map(([low]) => low[i])));
     this.high = [0, 1, 2].map(i => Math.max(...boxes.map(([, high]) => high[i])));
     this.extent = Math.hypot(...[0, 1, 2].map(i => this.high[i] - this.low[i]));
@@ -194,9 +198,10 @@ export class Scene {
     };
     const toWorld = new THREE.Matrix3().setFromMatrix4(camera.matrixWorld);
     for (const material of [this.surfaceMaterial, this.groundMaterial]) material.uniforms.toWorld.value.copy(toWorld);
-    const surface = this.surface.group.visible = this.shown.surface;
+    const surface = this.surface && this.shown.surface;
+    if (this.surface) this.surface.group.visible = surface;
     // Below an opaque surface nothing of the ground shows.
-    const ground = this.ground && this.shown.ground && (!surface || this.opacity < 1 || this.cutting);
+    const ground = this.ground && this.shown.ground && !this.covered();
     if (this.ground) this.ground.group.visible = Boolean(ground);
     const drawn = [surface && this.surface, ground && this.ground].filter(Boolean).map(
         set => set.update({...view, budget: view.budget / (surface && ground ? 2 : 1)}, quality.milliseconds));
