@@ -75,6 +75,7 @@ Q Corners::meet(BorderId from, BorderId to, Q first, Q last) const {
     const Q best = away(m.place[1]) < away(m.place[0]) ? m.place[1] : m.place[0];
     if (away(best) <= limit(a, b, m.sine) + double(length(last - first))) return best;
   }
+  if (first.x == last.x && first.y == last.y) return last;
   const auto amiss = [&](Q p) { return std::max(off(from, p), off(to, p)); };
   return amiss(first) < amiss(last) ? first : last;
 }

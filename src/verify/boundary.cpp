@@ -89,7 +89,7 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
       if (off_arc <= tolerance && off_arc < off) {
         off = off_arc;
         if (piece.start == piece.end) bow->left = outer;
-        curve.bow = bow;
+        curve.bow = std::make_shared<const CircularArc>(*bow);
         curve.c = bow->a + bow->to_centre, curve.r = bow->r, curve.arc = true;
       } else if (off <= tolerance) {
         curve.c = centre, curve.r = own_radius, curve.arc = true;
@@ -206,6 +206,7 @@ void Boundary::make_parts() {
 }
 
 void Boundary::add_parts_of(const CircularArc& arc, std::uint32_t ring, std::vector<std::pair<Real, Real>>& ranges) {
+  const auto whole = std::make_shared<const CircularArc>(arc);
   // Cut at the top and the bottom of the circle; the fraction of the arc comes from the chord up to there, or the angle.
   std::vector<std::pair<Real, Vec>> cuts{{0, arc.a}, {1, arc.b}};
   for (const Real sign : {Real(1), Real(-1)}) {
@@ -217,7 +218,7 @@ void Boundary::add_parts_of(const CircularArc& arc, std::uint32_t ring, std::vec
   }
   std::sort(cuts.begin(), cuts.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-    Part part{cuts[i].second, cuts[i + 1].second, 0, {}, arc.r, ring, arc};
+    Part part{cuts[i].second, cuts[i + 1].second, 0, {}, arc.r, ring, whole};
     const Vec inner = arc.at((cuts[i].first + cuts[i + 1].first) / 2) - arc.a;
     part.side = inner.x > arc.to_centre.x ? 1 : -1;
     if (part.a.y == part.b.y) continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct Curve {
   Real r = 0;
   Real sweep = 0;  ///< arcs: signed angle from a to b, counter-clockwise positive; a full circle has +-2 pi
   std::uint32_t ring = 0;
-  std::optional<CircularArc> bow = {};  ///< the same arc where an arc of the input is its origin: its circle may be vast
+  std::shared_ptr<const CircularArc> bow = {};  ///< the same where it is about an arc of the input: its circle may be vast
 
   /// Point at the fraction t of the piece.
   Vec at(Real t) const;
@@ -79,7 +80,7 @@ class Boundary {
     Vec c;
     Real r = 0;
     std::uint32_t ring = 0;
-    std::optional<CircularArc> bow = {};  // of all of the curve
+    std::shared_ptr<const CircularArc> bow = {};  // of all of the curve
     /// +-1 if the part crosses the ray from p (in the ray frame) towards +x upwards / downwards, else 0.
     int crosses(Vec p) const;
     /// Where the part meets height y; precondition: it does.

@@ -33,7 +33,7 @@ std::vector<Obstacle::Segment> Obstacle::cut(const std::vector<InputPart>& parts
       if (middle != part.middles.end() && *middle == i + 1) {
         ++middle;
         if (const auto arc = CircularArc::through(v[i], v[i + 1], v[i + 2])) {
-          segments.push_back({v[i], v[i + 2], inset, arc});
+          segments.push_back({v[i], v[i + 2], inset, std::make_shared<const CircularArc>(*arc)});
           ++i;
           continue;
         }
@@ -77,7 +77,7 @@ Obstacle::Obstacle(const std::vector<InputPart>& parts, double radius)
       sides_.push_back({ray_frame(q.a), ray_frame(q.b), polygon, {}});
       ranges.push_back(std::minmax(sides_.back().a.y, sides_.back().b.y));
       if (!q.arc) continue;
-      sides_.back().arc = q.arc->in_ray_frame();
+      sides_.back().arc = std::make_shared<const CircularArc>(q.arc->in_ray_frame());
       ranges.back() = heights_of(*sides_.back().arc);
     }
   }

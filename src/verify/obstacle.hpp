@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "krepl/point.hpp"
@@ -28,7 +29,7 @@ class Obstacle {
   struct Segment {
     Point a, b;  ///< equal: a point
     Real inset = 0;
-    std::optional<CircularArc> arc = {};  ///< an arc from a to b
+    std::shared_ptr<const CircularArc> arc = {};  ///< an arc from a to b; null: straight
     Box box() const {
       if (arc) return arc->box();
       Box r;
@@ -77,7 +78,7 @@ class Obstacle {
   struct Side {  // of a polygon ring, in the ray frame
     Vec a, b;
     std::uint32_t polygon;
-    std::optional<CircularArc> arc;
+    std::shared_ptr<const CircularArc> arc;
     bool crosses(Vec p) const;  // the ray towards +x an odd number of times
   };
   struct Arc {  // of the input, in the ray frame

@@ -9,7 +9,7 @@ namespace krepl::verify {
 namespace {
 
 /// Of vast circles differences of squares tell nothing: their arcs count as chords, and what is found so is polished.
-bool is_vast(const Curve& e) { return e.bow && e.r > 0x1p10L * distance(e.a, e.b); }
+bool is_vast(const Curve& e) { return e.bow && e.bow->is_short() && e.r > 0x1p10L * distance(e.a, e.b); }
 bool is_round(const Curve& e) { return e.arc && !is_vast(e); }
 
 /// How far a place is from the curve's line or circle, with a sign, and the direction in which that grows.

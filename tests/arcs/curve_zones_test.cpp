@@ -30,7 +30,7 @@ class CurveZones : public testing::TestWithParam<int> {};
 TEST_P(CurveZones, AreWhatBruteForceSays) {
   const auto family = CurveFamily(GetParam());
   std::mt19937_64 random(seed() + std::uint64_t(family));
-  for (int k = 0; k < int(200 * effort()); ++k) {
+  for (int k = 0; k < int(60 * effort()); ++k) {
     const ZoneCase c = random_curves(family, random);
     SCOPED_TRACE(text(c));
     const auto zone = curve_zone_of(c);

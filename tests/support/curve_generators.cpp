@@ -26,6 +26,7 @@ class Generator {
       case CurveFamily::near_equal:
         grid(c);
         near_equal(c);
+        drop_ill_conditioned(c);
         break;
       case CurveFamily::count: break;
     }
@@ -174,6 +175,21 @@ class Generator {
     for (InputPart& part : c.parts)
       for (Point& p : part.vertices)
         if (below(2) == 0) p = {p.x + size * (unit() - 0.5), p.y + size * (unit() - 0.5)};
+  }
+  /// Parts with an arc around the whole world (the middle hardly off the line beyond an end), or with two of three places so
+  /// near to each other that the last digits decide about the circle.
+  static void drop_ill_conditioned(ZoneCase& c) {
+    const auto is_ill = [](const InputPart& part) {
+      for (const std::uint32_t m : part.middles) {
+        const Point* p = &part.vertices[m - 1];
+        const auto near = [](Point a, Point b) { return !(a == b) && std::hypot(a.x - b.x, a.y - b.y) < 1e-6; };
+        const auto arc = verify::CircularArc::through(p[0], p[1], p[2]);
+        if (near(p[0], p[1]) || near(p[1], p[2]) || near(p[0], p[2]) || (arc && arc->wide && arc->r > 1e3)) return true;
+      }
+      return false;
+    };
+    std::erase_if(c.parts, is_ill);
+    if (c.parts.empty()) c.parts.push_back(point(0, 0));
   }
   static void shift(ZoneCase& c, double x, double y) {
     for (InputPart& part : c.parts)
