@@ -17,7 +17,7 @@ namespace krepl {
 /// last place of the coordinates) above the given one and whose parts are moved by far less. Arcs that are less than
 /// 2^-44 S high count as their chords. Without arcs this is the same zone as compute_zone's, up to rounding and the order
 /// of pieces. Errors: radius not finite and positive, or finer than the coordinates' resolution; cancelled; a result that
-/// does not certify. Expected O(n log n); some 20 µs a segment and 60 µs an arc.
+/// does not certify. Expected O(n log n); some 100 µs an element.
 Result<Zone> compute_zone(std::shared_ptr<const CurveNetwork> network, const ZoneOptions& options,
                           const Context& context = {});
 
