@@ -24,13 +24,15 @@ Real off(const Curve& e, Vec p, Vec& out) {
   return e.bow ? e.bow->off_circle(p) : length(d) - e.r;
 }
 
-/// The place near p where both curves are, by Newton's method.
+/// The place near p where both curves are, by Newton's method; from far away it needs some steps.
 Vec polished(const Curve& e, const Curve& f, Vec p) {
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < 30; ++k) {
     Vec m, n;
     const Real g = off(e, p, m), h = off(f, p, n), turn = cross(m, n);
     if (std::abs(turn) < 1e-15L) return p;
-    p = p + (1 / turn) * Vec(h * m.y - g * n.y, g * n.x - h * m.x);
+    const Vec step = (1 / turn) * Vec(h * m.y - g * n.y, g * n.x - h * m.x);
+    p = p + step;
+    if (length(step) <= 1e-18L * (std::abs(p.x) + std::abs(p.y))) return p;
   }
   return p;
 }
