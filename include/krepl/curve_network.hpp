@@ -15,8 +15,8 @@ namespace krepl {
 /// A validated, immutable set of lines and rings made of segments and circular arcs, and of isolated points: roads,
 /// tool paths, outlines of parts.
 ///
-/// An arc is given as in WKT, by its start, a point in its middle (anywhere strictly between) and its end; start and end
-/// equal: the full circle on which the middle is opposite to them. The circle is the one through the three points,
+/// An arc is given as in WKT, by its start, a point in its middle (anywhere strictly between) and its end; start and
+/// end equal: the full circle on which the middle is opposite to them. The circle is the one through the three points,
 /// however flat. Three points exactly in line, or two of them equal, are the segments that join them.
 ///
 /// A type beside Network and not a Network: what takes lines only cannot be given arcs by mistake.
@@ -65,8 +65,8 @@ class CurveNetwork {
   }
   /// Largest absolute coordinate relative to the origin, of the arcs themselves too.
   double extent() const { return extent_; }
-  /// Vertices that belong to a segment or end an arc, or are points of the input: what lines start, bend and end at. The
-  /// others are middles.
+  /// Vertices that belong to a segment or end an arc, or are points of the input: what lines start, bend and end at.
+  /// The others are middles.
   const std::vector<bool>& is_joint() const { return is_joint_; }
 
  private:

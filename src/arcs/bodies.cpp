@@ -197,16 +197,20 @@ kernel::Box Bodies::box(Index body) const {
 
 std::array<Index, 2> Bodies::ends(const Key& key) const {
   switch (key.kind) {
-    case Key::Kind::circle: return {key.index, key.index};
+    case Key::Kind::circle:
+      return {key.index, key.index};
     case Key::Kind::side: {
       const auto s = network_.straight().segments()[key.index >> 1];
       return {s.a, s.b};
     }
-    case Key::Kind::chord: return {courses_[key.index >> 1].from, courses_[key.index >> 1].to};
+    case Key::Kind::chord:
+      return {courses_[key.index >> 1].from, courses_[key.index >> 1].to};
     case Key::Kind::outer:
-    case Key::Kind::inner: return {courses_[key.index].from, courses_[key.index].to};
+    case Key::Kind::inner:
+      return {courses_[key.index].from, courses_[key.index].to};
     case Key::Kind::wall:
-    case Key::Kind::end: break;
+    case Key::Kind::end:
+      break;
   }
   return {none, none};
 }

@@ -65,10 +65,10 @@ struct Course {
 /// The bodies whose union is the zone of lines with arcs (docs/arcs.md): a disk about each joint, a strip beside each
 /// segment, and for each arc one to four sectors of a ring (of a disk where R exceeds the arc's radius).
 ///
-/// Each body is moved as a whole by its own fixed random vector, and its radii and widths by fixed random lengths, all of
-/// up to 2^-9 g (g: what the radius is enlarged by), so that no two borders coincide, touch or meet in a corner: all
-/// decisions are about this instance. Disks are larger by 2^-6 g, so that they cover the walls at the ends of strips and
-/// sectors; the sectors of one arc overlap.
+/// Each body is moved as a whole by its own fixed random vector, and its radii and widths by fixed random lengths, all
+/// of up to 2^-9 g (g: what the radius is enlarged by), so that no two borders coincide, touch or meet in a corner: all
+/// decisions are about this instance. Disks are larger by 2^-6 g, so that they cover the walls at the ends of strips
+/// and sectors; the sectors of one arc overlap.
 class Bodies {
  public:
   /// `seed` chooses the instance.

@@ -95,9 +95,9 @@ class Contraction {
     return collapsed;
   }
 
-  /// Moves the starts of all items to where their borders meet. Where borders touch, that may be along the boundary from
-  /// where the moved bodies change over, so that pieces get lost: what has no length left or would run backwards is taken
-  /// out, for it would pass for a full circle. True if something was.
+  /// Moves the starts of all items to where their borders meet. Where borders touch, that may be along the boundary
+  /// from where the moved bodies change over, so that pieces get lost: what has no length left or would run backwards
+  /// is taken out, for it would pass for a full circle. True if something was.
   bool settle(Chain& chain) const {
     if (chain.size() < 2) return false;
     std::vector<Q> start;
@@ -209,7 +209,8 @@ std::vector<Zone::Piece> pieces_of(const Bodies& bodies, const Chain& chain) {
 
 }  // namespace
 
-Result<ShapedRings> body_union(const Bodies& bodies, double resolution, const Context& context, ZoneCounters& counters) {
+Result<ShapedRings> body_union(const Bodies& bodies, double resolution, const Context& context,
+                               ZoneCounters& counters) {
   const std::vector<Uncovered> all = uncovered_stretches(bodies, context, counters);
   if (context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
   auto next = successors(all, context);

@@ -9,7 +9,8 @@ namespace krepl {
 namespace arcs {
 namespace {
 
-/// Rings inside a polygon bound what is filled. They keep a distance of R from its border, so any place of a ring decides.
+/// Rings inside a polygon bound what is filled. They keep a distance of R from its border, so any place of a ring
+/// decides.
 zone::ShapedRings drop_rings_inside_polygons(const CurveNetwork& network, zone::ShapedRings rings) {
   const CurveLocator polygons(network);
   zone::ShapedRings kept;

@@ -9,10 +9,10 @@ class Corners {
  public:
   explicit Corners(const Bodies& bodies) : bodies_(bodies) {}
 
-  /// The place where the boundary goes over from one border to the next, given where the moved bodies' do: from one place
-  /// to another where pieces between the two were taken out. Where that is ill-conditioned one of these is taken, which
-  /// is off by a little more than what the radius is enlarged by; but borders about a common vertex may touch, and are
-  /// then at their common tangent point.
+  /// The place where the boundary goes over from one border to the next, given where the moved bodies' do: from one
+  /// place to another where pieces between the two were taken out. Where that is ill-conditioned one of these is taken,
+  /// which is off by a little more than what the radius is enlarged by; but borders about a common vertex may touch,
+  /// and are then at their common tangent point.
   Vector<quad> meet(BorderId from, BorderId to, Vector<quad> first, Vector<quad> last) const;
 
   /// How far p is from the line or circle that the border lies on.

@@ -13,8 +13,8 @@ struct ArcCircle {
   bool left;  ///< the arc turns left
 };
 
-/// Through three places that are not in line, or, where start and end are equal, with the middle opposite. The arc may be
-/// flat: what rounding does to the radius then hardly shows on the arc.
+/// Through three places that are not in line, or, where start and end are equal, with the middle opposite. The arc may
+/// be flat: what rounding does to the radius then hardly shows on the arc.
 template <class Real>
 ArcCircle<Real> arc_circle(Point start, Point middle, Point end) {
   const Real ux = Real(middle.x) - Real(start.x), uy = Real(middle.y) - Real(start.y);

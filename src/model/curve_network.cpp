@@ -17,8 +17,8 @@ bool is_straight(Point start, Point middle, Point end) {
   return !(start == end) && kernel::orientation(start, middle, end) == 0;
 }
 
-/// Largest absolute coordinate of an arc. Where it is less than half a turn, its bulge is within its chord's box grown by its
-/// height.
+/// Largest absolute coordinate of an arc. Where it is less than half a turn, its bulge is within its chord's box grown
+/// by its height.
 double extent_of(Point start, Point middle, Point end) {
   const auto largest = [](Point p) { return std::max(std::abs(p.x), std::abs(p.y)); };
   const double ends = std::max({largest(start), largest(middle), largest(end)});
@@ -30,7 +30,8 @@ double extent_of(Point start, Point middle, Point end) {
   if (!(start == end) && ux * vx + uy * vy >= 0) {
     const double half = std::hypot(end.x - start.x, end.y - start.y) / 2;
     const double height = half * half / (r + std::sqrt(std::max(0.0, (r - half) * (r + half))));
-    return std::max(ends, std::min(std::max(largest(start), largest(end)) + height, r + std::max(std::abs(x), std::abs(y))));
+    return std::max(ends,
+                    std::min(std::max(largest(start), largest(end)) + height, r + std::max(std::abs(x), std::abs(y))));
   }
   return std::max(ends, r + std::max(std::abs(x), std::abs(y)));
 }
@@ -112,15 +113,18 @@ void CurveNetwork::index_arcs(const std::vector<std::uint32_t>& middles) {
     arcs_.push_back(e.arc);
     arc_position_.push_back(e.position);
     is_joint_[e.arc.start] = is_joint_[e.arc.end] = true;
-    extent_ = std::max(extent_, extent_of(s.vertices()[e.arc.start], s.vertices()[e.arc.middle], s.vertices()[e.arc.end]));
+    extent_ =
+        std::max(extent_, extent_of(s.vertices()[e.arc.start], s.vertices()[e.arc.middle], s.vertices()[e.arc.end]));
   }
   for (const auto& segment : s.segments()) is_joint_[segment.a] = is_joint_[segment.b] = true;
   for (std::uint32_t p = 0; p < s.part_count(); ++p) {  // points, and lines whose vertices are all one
     auto middle = part_middles(p).begin();
     const auto chain = s.part(p);
     for (std::uint32_t i = 0; i < chain.size(); ++i) {
-      if (middle != part_middles(p).end() && *middle == i) ++middle;
-      else is_joint_[chain[i]] = true;
+      if (middle != part_middles(p).end() && *middle == i)
+        ++middle;
+      else
+        is_joint_[chain[i]] = true;
     }
   }
 }

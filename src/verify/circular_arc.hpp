@@ -9,11 +9,11 @@
 
 namespace krepl::verify {
 
-/// A circular arc from a to b whose circle may be far wider than all coordinates: places count from a, the centre by the
-/// way to it, and what would be a difference of two lengths near the radius is a quotient.
+/// A circular arc from a to b whose circle may be far wider than all coordinates: places count from a, the centre by
+/// the way to it, and what would be a difference of two lengths near the radius is a quotient.
 struct CircularArc {
-  Vec a, b;        ///< equal: the full circle
-  Vec to_centre;   ///< from a
+  Vec a, b;       ///< equal: the full circle
+  Vec to_centre;  ///< from a
   Real r = 0;
   bool left = true;   ///< it turns left from a to b
   bool wide = false;  ///< more than half a turn

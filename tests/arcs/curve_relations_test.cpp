@@ -1,5 +1,5 @@
-// Zones of lines with arcs in relation to others: of the zone's own border, of chords, of the same input moved, turned and
-// scaled, of lines without arcs by the other engine, with other numbers of threads.
+// Zones of lines with arcs in relation to others: of the zone's own border, of chords, of the same input moved, turned
+// and scaled, of lines without arcs by the other engine, with other numbers of threads.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Zones of lines with arcs: known areas, and random input of families that are degenerate by design, each checked by brute
-// force (distances to the arcs themselves, in extended precision).
+// Zones of lines with arcs: known areas, and random input of families that are degenerate by design, each checked by
+// brute force (distances to the arcs themselves, in extended precision).
 #include "krepl/curve_zone.hpp"
 
 #include <gtest/gtest.h>

@@ -14,21 +14,40 @@ class Generator {
     ZoneCase c;
     c.radius = pick({0.25, 0.5, 0.5, 1.0, 1.0, 1.5, 2.0, 3.0, 0.3, 0.7071067811865476, 7.0});
     switch (family) {
-      case CurveFamily::grid: grid(c); break;
-      case CurveFamily::circles: circles(c); break;
-      case CurveFamily::concentric: concentric(c); break;
-      case CurveFamily::one_circle: one_circle(c); break;
-      case CurveFamily::tangent: tangent(c); break;
-      case CurveFamily::flat: flat(c); break;
-      case CurveFamily::crossing: crossing(c); break;
-      case CurveFamily::fillets: fillets(c); break;
-      case CurveFamily::arc_rings: arc_rings(c); break;
+      case CurveFamily::grid:
+        grid(c);
+        break;
+      case CurveFamily::circles:
+        circles(c);
+        break;
+      case CurveFamily::concentric:
+        concentric(c);
+        break;
+      case CurveFamily::one_circle:
+        one_circle(c);
+        break;
+      case CurveFamily::tangent:
+        tangent(c);
+        break;
+      case CurveFamily::flat:
+        flat(c);
+        break;
+      case CurveFamily::crossing:
+        crossing(c);
+        break;
+      case CurveFamily::fillets:
+        fillets(c);
+        break;
+      case CurveFamily::arc_rings:
+        arc_rings(c);
+        break;
       case CurveFamily::near_equal:
         grid(c);
         near_equal(c);
         drop_ill_conditioned(c);
         break;
-      case CurveFamily::count: break;
+      case CurveFamily::count:
+        break;
     }
     if (below(3) == 0) shift(c, 4.0e5 + below(1000), 5.4e6);
     return c;
@@ -120,7 +139,8 @@ class Generator {
       if (a == b) b.x += 1;
       const double height = std::ldexp(1 + unit(), -below(60)) * (below(2) ? 1 : -1), share = 0.25 + 0.5 * unit();
       const double bulge = 4 * share * (1 - share) * height;
-      c.parts.push_back(arc(a, {a.x + share * (b.x - a.x) - bulge * (b.y - a.y), a.y + share * (b.y - a.y) + bulge * (b.x - a.x)}, b));
+      c.parts.push_back(arc(
+          a, {a.x + share * (b.x - a.x) - bulge * (b.y - a.y), a.y + share * (b.y - a.y) + bulge * (b.x - a.x)}, b));
       if (below(3) == 0) c.parts.push_back(line({a, b}));
       if (below(3) == 0) c.parts.push_back(line({b, grid_point(5)}));
     }
@@ -131,8 +151,10 @@ class Generator {
       const Point p{10 * unit(), 10 * unit()};
       const double size = std::ldexp(1, below(12) - 8);
       const auto near = [&](double s) { return Point{p.x + s * (unit() - 0.5), p.y + s * (unit() - 0.5)}; };
-      if (below(3) == 0) c.parts.push_back(line({near(10 * size), near(10 * size)}));
-      else c.parts.push_back(arc(near(10 * size), near(10 * size), near(10 * size)));
+      if (below(3) == 0)
+        c.parts.push_back(line({near(10 * size), near(10 * size)}));
+      else
+        c.parts.push_back(arc(near(10 * size), near(10 * size), near(10 * size)));
     }
   }
   void fillets(ZoneCase& c) {
@@ -140,10 +162,19 @@ class Generator {
       const Point p = grid_point(8);
       const double w = 1 + below(6), h = 1 + below(6), r = std::min(w, h) * pick({0.5, 0.25, 0.1, 1e-4});
       const double s = r * (1 - std::sqrt(0.5));
-      InputPart part = curve_ring({{p.x + r, p.y}, {p.x + w - r, p.y}, {p.x + w - s, p.y + s}, {p.x + w, p.y + r},
-                                   {p.x + w, p.y + h - r}, {p.x + w - s, p.y + h - s}, {p.x + w - r, p.y + h},
-                                   {p.x + r, p.y + h}, {p.x + s, p.y + h - s}, {p.x, p.y + h - r},
-                                   {p.x, p.y + r}, {p.x + s, p.y + s}, {p.x + r, p.y}},
+      InputPart part = curve_ring({{p.x + r, p.y},
+                                   {p.x + w - r, p.y},
+                                   {p.x + w - s, p.y + s},
+                                   {p.x + w, p.y + r},
+                                   {p.x + w, p.y + h - r},
+                                   {p.x + w - s, p.y + h - s},
+                                   {p.x + w - r, p.y + h},
+                                   {p.x + r, p.y + h},
+                                   {p.x + s, p.y + h - s},
+                                   {p.x, p.y + h - r},
+                                   {p.x, p.y + r},
+                                   {p.x + s, p.y + s},
+                                   {p.x + r, p.y}},
                                   {2, 5, 8, 11}, below(2));
       c.parts.push_back(part);
     }
@@ -176,8 +207,8 @@ class Generator {
       for (Point& p : part.vertices)
         if (below(2) == 0) p = {p.x + size * (unit() - 0.5), p.y + size * (unit() - 0.5)};
   }
-  /// Parts with an arc around the whole world (the middle hardly off the line beyond an end), or with two of three places so
-  /// near to each other that the last digits decide about the circle.
+  /// Parts with an arc around the whole world (the middle hardly off the line beyond an end), or with two of three
+  /// places so near to each other that the last digits decide about the circle.
   static void drop_ill_conditioned(ZoneCase& c) {
     const auto is_ill = [](const InputPart& part) {
       for (const std::uint32_t m : part.middles) {
