@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "input/network_reader.hpp"
+#include "krepl/curve_zone.hpp"
 #include "krepl/sweep.hpp"
 #include "krepl/voronoi.hpp"
 #include "krepl/zone.hpp"
@@ -83,6 +84,7 @@ void tell_cleaning(const input::NetworkData& data, double seconds, Session& sess
   session.detail(fmt::format("read       {:.3f} s: {} features, {} vertices ({} distinct), {} segments", seconds,
                              data.features, report.input_vertices, data.network->vertices().size(),
                              data.network->segments().size()));
+  if (data.curves) session.detail(fmt::format("arcs       {}", data.curves->arcs().size()));
   session.detail(fmt::format("cleaning   {} coinciding vertices welded, {} repeated vertices and {} duplicate segments dropped",
                              report.coinciding_vertices, report.repeated_vertices, report.duplicate_segments));
 }
@@ -122,6 +124,7 @@ Result<Zone> zone_without_diagram(const input::NetworkData& data, const BufferPl
 
 std::string summary_line(const Network& network, const std::vector<Zone>& zones, double seconds) {
   std::string text = fmt::format("{} segments", network.segments().size());
+  if (zones.front().curves() != nullptr) text += fmt::format(", {} arcs", zones.front().curves()->arcs().size());
   for (const Zone& zone : zones) {
     std::size_t arcs = 0;
     for (std::uint32_t e = 0; e < zone.piece_count(); ++e) arcs += zone.piece(e).kind == Zone::Kind::arc ? 1 : 0;
@@ -144,7 +147,20 @@ Result<std::vector<Zone>> zones_from_diagram(const input::NetworkData& data, con
   return zones;
 }
 
+Result<std::vector<Zone>> zones_of_curves(const input::NetworkData& data, const BufferPlan& plan, Session& session) {
+  std::vector<Zone> zones;
+  for (double radius : plan.radii) {
+    Stopwatch watch;
+    Result<Zone> zone = compute_zone(data.curves, {radius}, session.context("computing"));
+    if (!zone) return zone.error();
+    tell_counters(*zone, watch.seconds(), session);
+    zones.push_back(std::move(*zone));
+  }
+  return zones;
+}
+
 Result<std::vector<Zone>> compute_zones(const input::NetworkData& data, const BufferPlan& plan, Session& session) {
+  if (data.curves) return zones_of_curves(data, plan, session);
   if (wants_diagram(plan.engine, plan.radii, *data.network)) {
     Result<std::vector<Zone>> zones = zones_from_diagram(data, plan, session);
     if (zones.ok() || plan.engine == "voronoi" || zones.error().code != ErrorCode::computation) return zones;
@@ -175,7 +191,9 @@ int run_buffer(const BufferOptions& options, Session& session) {
 
   Stopwatch reading;
   const std::string in_name = input_name(options.input.path);
-  Result<input::NetworkData> data = input::read_network(options.input, session.context("reading"));
+  input::NetworkRequest request = options.input;
+  request.keep_arcs = is_plain(plan->shape, plan->radii) && plan->engine == "auto";
+  Result<input::NetworkData> data = input::read_network(request, session.context("reading"));
   if (!data) return session.fail(in_name, data.error());
   for (const std::string& note : data->notes) session.note(in_name, note);
   tell_cleaning(*data, reading.seconds(), session);

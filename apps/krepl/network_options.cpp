@@ -8,7 +8,7 @@
 namespace krepl::app {
 
 void add_arc_option(CLI::App& verb, double& arc_error) {
-  verb.add_option("--arc-error", arc_error, "Arcs of the input: take chords that deviate by this much at most (else an error)")
+  verb.add_option("--arc-error", arc_error, "Arcs of the input: take chords that deviate by this much at most (else they stay arcs, or are an error)")
       ->type_name("LENGTH")
       ->check([](const std::string& text) {
         const auto parsed = parse_positive("--arc-error", text);

@@ -156,7 +156,9 @@ int verify_zones(const VerifyOptions& options, Session& session) {
     return verify_features({options.result, options.input, f, radii, check.max_error, options.samples}, session);
   auto zones = input::read_zones(options.result, input::EmptyZones::keep);
   if (!zones) return session.fail(options.result, zones.error());
-  auto parts = verify::read_parts(options.input, session.context("reading"));
+  verify::InputRequest request = options.input;
+  request.keep_arcs = is_plain(*shape, radii) && !varied;
+  auto parts = verify::read_parts(request, session.context("reading"));
   session.finish_progress();
   if (!parts) return session.fail(options.input.path, parts.error());
   Result<ZonesByRadius> groups =
@@ -164,6 +166,10 @@ int verify_zones(const VerifyOptions& options, Session& session) {
   if (!groups) return session.fail(options.result, groups.error());
   if (groups->empty()) return session.fail(options.result, {ErrorCode::input, "holds no zone", "", ""});
 
+  const bool arcs = std::any_of(parts->begin(), parts->end(), [](const auto& part) { return !part.middles.empty(); });
+  if (arcs && groups->begin()->first < 0)
+    return session.fail(options.input.path, {ErrorCode::input, "arcs of the input do not go with a negative radius", "",
+                                             "give the --arc-error that the result was made with"});
   const verify::Obstacle obstacle(*parts, groups->rbegin()->first);
   int status = 0;
   for (const auto& [radius, polygons] : *groups) {

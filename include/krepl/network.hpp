@@ -12,6 +12,8 @@
 
 namespace krepl {
 
+class CurveNetwork;
+
 /// What building a Network changed or dropped; every number is a count of occurrences in the input.
 struct CleaningReport {
   std::size_t input_vertices = 0;      ///< vertices as given
@@ -57,11 +59,13 @@ class Network {
 
    private:
     friend class Network;
+    friend class CurveNetwork;
     void add_part(std::span<const Point> vertices, std::int64_t feature, bool ring);
     std::vector<Point> points_;
     std::vector<std::uint32_t> part_begin_;
     std::vector<std::int64_t> part_feature_;
     std::vector<bool> part_is_ring_;
+    std::vector<std::uint32_t> gaps_;  // vertices from which no segment leads to the next, ascending
   };
 
   /// The middle of the input's bounding box, rounded so that taking it off is exact for ordinary data; `vertices()` and
@@ -93,8 +97,9 @@ class Network {
 
  private:
   friend class Builder;
+  friend class CurveNetwork;
   Source source_of(std::uint32_t position) const;
-  void index_segments();
+  void index_segments(const std::vector<std::uint32_t>& gaps);
   Point origin_;
   double extent_ = 0;
   double resolution_ = 0;

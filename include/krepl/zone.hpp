@@ -56,12 +56,15 @@ class Zone {
     Kind kind;
     Point start, end;
     Point center;          ///< arcs only
-    std::uint32_t source;  ///< the segment or vertex (`from_vertex`) of network() that causes it
+    std::uint32_t source;  ///< the segment or vertex (`from_vertex`) of network() that causes it, or arc (`from_arc`)
     bool reversed;         ///< segments only: the piece runs from the source segment's b to its a
-    double radius = 0;     ///< of the disk that the source is widened by
-    bool clockwise = false;    ///< arcs only: where a polygon shrinks, arcs run round their centre the other way
+    double radius = 0;     ///< of the disk that the source is widened by; of arcs `from_arc`: their own
+    bool clockwise = false;    ///< arcs only: where a polygon shrinks, and inside an arc, they run round their centre the other way
     bool from_vertex = false;  ///< source is a vertex: all arcs about one, ends and bevels
     Role role = Role::offset;
+    /// Source is an arc of curves(). Of an arc far wider than all coordinates the centre is rounded as they are: the ends
+    /// and the radius tell more.
+    bool from_arc = false;
   };
 
   /// A connected part of the zone: one outer ring and its holes.
@@ -79,6 +82,8 @@ class Zone {
   /// Largest of radius and extent: the S of the accuracy contract.
   double scale() const;
   const Network& network() const { return *network_; }
+  /// The lines with arcs that this is the zone of, whose straight part network() is; null where there are none.
+  const CurveNetwork* curves() const { return curves_.get(); }
   const Subdivision& subdivision() const { return subdivision_; }
   const ZoneCounters& counters() const { return counters_; }
 
@@ -107,6 +112,7 @@ class Zone {
   double radius_ = 0;
   bool inward_ = false;
   std::shared_ptr<const Network> network_;
+  std::shared_ptr<const CurveNetwork> curves_;
   std::shared_ptr<const zone::VariedSites> varied_;  // none where there is one radius
   std::vector<Point> vertex_;           // relative to the network's origin; vertex e starts piece e
   std::vector<std::uint32_t> element_;  // per piece: the boundary element it lies on; or, of other shapes,

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "ogr/spatial_reference.hpp"
 
 namespace krepl::input {
 
-Result<Collected> collect(GeometrySource& source, double arc_error, const Context& context, const Seen& seen) {
+Result<Collected> collect(GeometrySource& source, const ArcTreatment& arcs, const Context& context, const Seen& seen) {
   Collected all;
-  all.parts.arc_error = arc_error;
+  all.parts.arc_error = arcs.error;
+  all.parts.keep_arcs = arcs.keep;
   for (std::size_t count = 0;; ++count) {
     if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while reading", "", ""};
     if (context.progress && count % 256 == 0) context.progress(source.fraction());
@@ -71,6 +74,29 @@ Result<Network> build_network(const Parts& parts, const Context& context) {
   Network::Builder builder;
   for (std::size_t i = 0; i < parts.size(); ++i) add_part(builder, parts, i, parts.feature[i]);
   return std::move(builder).build(context);
+}
+
+Result<CurveNetwork> build_curve_network(const Parts& parts, const Context& context) {
+  CurveNetwork::Builder builder;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    std::span<const Point> vertices(parts.points.data() + parts.begin[i], parts.begin[i + 1] - parts.begin[i]);
+    const std::vector<std::uint32_t> middles = parts.middles_of(i);
+    switch (parts.kind[i]) {
+      case Parts::Kind::line: builder.add_line(vertices, middles, parts.feature[i]); break;
+      case Parts::Kind::ring: builder.add_ring(vertices, middles, parts.feature[i]); break;
+      case Parts::Kind::point: builder.add_point(vertices.front(), parts.feature[i]); break;
+    }
+  }
+  return std::move(builder).build(context);
+}
+
+Status check_projection(const Parts& parts, const std::string& to_crs,
+                        const std::function<std::string(std::int64_t)>& place) {
+  if (to_crs.empty() || parts.middle.empty()) return std::monostate{};
+  const auto after = std::upper_bound(parts.begin.begin(), parts.begin.end(), parts.middle.front());
+  return Error{ErrorCode::input, "arcs cannot be projected",
+               place(parts.feature[static_cast<std::size_t>(after - parts.begin.begin()) - 1]),
+               "give --arc-error LENGTH for chords in their place that deviate by no more"};
 }
 
 }  // namespace krepl::input

@@ -84,7 +84,7 @@ Result<FeatureData> read_features(const FeatureRequest& request, const Context& 
   auto source = open_geometry_source(network.path, {network.layer, network.where}, context);
   if (!source) return source.error();
   FeatureData data;
-  Result<Collected> all = collect(**source, network.arc_error, context, [&](const GeometrySource::Item& item, std::size_t parts) {
+  Result<Collected> all = collect(**source, {network.arc_error}, context, [&](const GeometrySource::Item& item, std::size_t parts) {
     if (parts == data.part_begin.back()) return;
     if (item.feature != nullptr) data.row.push_back(attributes_of(*item.feature));
     data.place.push_back((*source)->place(item.number));

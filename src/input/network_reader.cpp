@@ -32,7 +32,7 @@ Result<std::vector<Point>> projected_places(const NetworkRequest& request, const
 Result<NetworkData> read_network(const NetworkRequest& request, const Context& context) {
   auto source = open_geometry_source(request.path, {request.layer, request.where}, context);
   if (!source) return source.error();
-  Result<Collected> all = collect(**source, request.arc_error, context);
+  Result<Collected> all = collect(**source, {request.arc_error, request.keep_arcs}, context);
   if (!all) return all.error();
   Parts& parts = all->parts;
   if (parts.size() == 0) return nothing_found(request, *all);
@@ -44,6 +44,7 @@ Result<NetworkData> read_network(const NetworkRequest& request, const Context& c
   Result<std::optional<OGRSpatialReference>> crs = crs_of_data(request, **source);
   if (!crs) return crs.error();
   auto place = [&](std::int64_t number) { return (*source)->place(number); };
+  if (Status plain = check_projection(parts, request.to_crs, place); !plain) return plain.error();
   Result<std::optional<OGRSpatialReference>> plane =
       project(parts, {*crs, request.to_crs, place}, data.notes, context);
   if (!plane) return plane.error();
@@ -52,6 +53,13 @@ Result<NetworkData> read_network(const NetworkRequest& request, const Context& c
   if (!places) return places.error();
   data.places = std::move(*places);
 
+  if (!parts.middle.empty()) {
+    auto curves = build_curve_network(parts, context);
+    if (!curves) return curves.error();
+    data.curves = std::make_shared<const CurveNetwork>(std::move(*curves));
+    data.network = data.curves->share_straight();
+    return data;
+  }
   Result<Network> network = build_network(parts, context);
   if (!network) return network.error();
   data.network = std::make_shared<const Network>(std::move(*network));

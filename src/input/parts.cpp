@@ -75,9 +75,11 @@ Status Parts::add_arcs(const OGRSimpleCurve& string, const std::string& place) {
                  "give end, middle, end, middle, end"};
   }
   for (int i = 1; i + 1 < string.getNumPoints(); i += 2) {
-    const Point start = points.back(), middle{string.getX(i), string.getY(i)}, end{string.getX(i + 1), string.getY(i + 1)};
-    if (Status added = add_vertex(middle.x, middle.y, place, static_cast<std::size_t>(i)); !added) return added;
-    if (const auto arc = ArcChords::through(start, middle, end)) {
+    const Point start = points.back(), between{string.getX(i), string.getY(i)}, end{string.getX(i + 1), string.getY(i + 1)};
+    if (Status added = add_vertex(between.x, between.y, place, static_cast<std::size_t>(i)); !added) return added;
+    if (!(arc_error > 0)) {
+      middle.push_back(points.size() - 1);
+    } else if (const auto arc = ArcChords::through(start, between, end)) {
       points.pop_back();
       const double count = arc->count(arc_error);
       if (static_cast<double>(points.size()) + count > most) {
@@ -141,10 +143,17 @@ Status Parts::add_curved(const OGRGeometry& geometry, std::int64_t number, const
   }
 }
 
+std::vector<std::uint32_t> Parts::middles_of(std::size_t i) const {
+  std::vector<std::uint32_t> own;
+  for (auto m = std::lower_bound(middle.begin(), middle.end(), begin[i]); m != middle.end() && *m < begin[i + 1]; ++m)
+    own.push_back(static_cast<std::uint32_t>(*m - begin[i]));
+  return own;
+}
+
 Status Parts::add(const OGRGeometry& geometry, std::int64_t number, const std::string& place) {
   has_height = has_height || geometry.Is3D() || geometry.IsMeasured();
-  if (geometry.hasCurveGeometry(TRUE) && !(arc_error > 0)) {
-    return Error{ErrorCode::input, "arcs as input are not supported", place,
+  if (geometry.hasCurveGeometry(TRUE) && !(arc_error > 0) && !keep_arcs) {
+    return Error{ErrorCode::input, "arcs as input are supported by krepl buffer, for whole round zones, only", place,
                  "give --arc-error LENGTH for chords in their place that deviate by no more"};
   }
   return geometry.hasCurveGeometry() ? add_curved(geometry, number, place) : add_linear(geometry, number, place);

@@ -20,7 +20,10 @@ struct Parts {
   std::vector<Kind> kind;
   bool has_height = false;  ///< Z or M was left out somewhere
 
-  double arc_error = 0;      ///< largest deviation of chords that may stand for an arc; 0: arcs are refused
+  std::vector<std::size_t> middle;  ///< ascending: points that are the middle of an arc between their neighbours
+
+  bool keep_arcs = false;    ///< arcs stay arcs, unless there is an `arc_error`
+  double arc_error = 0;      ///< largest deviation of chords that may stand for an arc; 0: arcs are kept, or refused
   std::size_t arcs = 0;      ///< arcs that chords stand for
   double arc_deviation = 0;  ///< how far these chords deviate
 
@@ -28,6 +31,8 @@ struct Parts {
   /// Adds a geometry of any linear or curved type. `place` names it in errors: "feature 7". An arc that two geometries
   /// share gets the same chords in both, whichever way it runs.
   Status add(const OGRGeometry& geometry, std::int64_t number, const std::string& place);
+  /// The middles of arcs in part i, counted from its first point.
+  std::vector<std::uint32_t> middles_of(std::size_t i) const;
 
  private:
   Status add_curve(const OGRSimpleCurve& curve, Kind part_kind, std::int64_t number, const std::string& place);

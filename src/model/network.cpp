@@ -140,11 +140,11 @@ Result<Network> Network::Builder::build(const Context& context) && {
   net.report_.input_vertices = n;
   net.report_.coinciding_vertices = n - net.vertices_.size();
   if (context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
-  net.index_segments();
+  net.index_segments(gaps_);
   return net;
 }
 
-void Network::index_segments() {
+void Network::index_segments(const std::vector<std::uint32_t>& gaps) {
   // Counting sort by the lower vertex; buckets are small (the degree), so they are sorted by comparison.
   struct Entry {
     std::uint32_t b, position;
@@ -152,7 +152,11 @@ void Network::index_segments() {
   const auto for_each_pair = [&](auto&& visit) {
     for (std::uint32_t p = 0; p + 1 < part_begin_.size(); ++p) {
       const std::uint32_t first = part_begin_[p], last = part_begin_[p + 1] - 1;
-      for (std::uint32_t i = first; i < last; ++i) visit(i, chain_[i], chain_[i + 1]);
+      auto gap = std::lower_bound(gaps.begin(), gaps.end(), first);
+      for (std::uint32_t i = first; i < last; ++i) {
+        if (gap == gaps.end() || *gap != i) visit(i, chain_[i], chain_[i + 1]);
+        else ++gap;
+      }
       if (part_is_ring_[p] && last > first + 1 && chain_[last] != chain_[first]) visit(last, chain_[last], chain_[first]);
     }
   };

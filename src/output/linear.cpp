@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "output/zone_curves.hpp"
+#include "zone/arc_turn.hpp"
 
 namespace krepl::output {
 
@@ -33,6 +34,7 @@ void Linearizer::append_arc(const Zone::Piece& arc, std::vector<Point>& points) 
     radius_ = arc.radius;
     largest_step_ = step_of(radius_, max_error_);
   }
+  if (arc.from_arc) return append_arc_of_input(arc, points);
   double angle = arc_angle(arc);
   auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(angle / largest_step_)));
   double step = angle / static_cast<double>(count);
@@ -44,6 +46,34 @@ void Linearizer::append_arc(const Zone::Piece& arc, std::vector<Point>& points) 
   }
   points.push_back(arc.end);
   deviation_ = std::max(deviation_, sagitta(radius_, step));
+}
+
+/// Counts from the start: the centre may be far away, and rounded. Clockwise the zone is outside the circle, so that the
+/// lines go along tangents: chords would leave it, and could meet another part of the boundary.
+void Linearizer::append_arc_of_input(const Zone::Piece& arc, std::vector<Point>& points) {
+  const double angle = arc_angle(arc), r = arc.radius;
+  // The corner of two tangents deviates by up to 1.42 times as much as a chord.
+  const double largest = arc.clockwise ? step_of(r, max_error_ / 1.5) : largest_step_;
+  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(angle / largest)));
+  const double step = angle / static_cast<double>(count), sense = arc.clockwise ? -1 : 1;
+  Point along{sense * (arc.center.y - arc.start.y) / r, sense * (arc.start.x - arc.center.x) / r};  // where it starts
+  if (zone::is_short_arc(arc)) {
+    const double x = arc.end.x - arc.start.x, y = arc.end.y - arc.start.y, chord = std::hypot(x, y);
+    const double c = std::cos(angle / 2) / chord, s = -sense * std::sin(angle / 2) / chord;
+    along = {x * c - y * s, x * s + y * c};
+  }
+  const auto place = [&](double ahead, double aside) {  // the latter towards the centre
+    return Point{arc.start.x + along.x * ahead - sense * along.y * aside, arc.start.y + along.y * ahead + sense * along.x * aside};
+  };
+  const double stretch = arc.clockwise ? 1 / std::cos(step / 2) : 1;
+  for (std::size_t i = arc.clockwise ? 0 : 1; i < count; ++i) {
+    const double turn = (static_cast<double>(i) + (arc.clockwise ? 0.5 : 0)) * step, half = std::sin(turn / 2);
+    // A tangent corner is further out than the arc's place by what follows from the half step.
+    const double out = r * (stretch - 1);
+    points.push_back(place(r * std::sin(turn) + out * std::sin(turn), 2 * r * half * half - out * std::cos(turn)));
+  }
+  points.push_back(arc.end);
+  deviation_ = std::max(deviation_, sagitta(r, step) * stretch);
 }
 
 std::vector<Point> Linearizer::ring(const Zone& zone, std::uint32_t ring) {

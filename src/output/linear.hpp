@@ -28,6 +28,7 @@ class Linearizer {
   static double finest(double radius) { return 1e-12 * radius; }
 
  private:
+  void append_arc_of_input(const Zone::Piece& arc, std::vector<Point>& points);
   double radius_, max_error_;
   double largest_step_;
   double deviation_ = 0;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "krepl/curve_network.hpp"
 #include "ogr/message_capture.hpp"
 #include "output/atomic_file.hpp"
 #include "output/ogr_dataset.hpp"
@@ -104,11 +105,16 @@ static const char* kind_of(const Zone::Piece& piece) {
   return piece.kind == Zone::Kind::arc ? "arc" : "segment";
 }
 
+static Network::Source source_of(const Zone& zone, const Zone::Piece& piece) {
+  if (piece.from_arc) return zone.curves()->arc_source(piece.source);
+  return piece.from_vertex ? zone.network().vertex_source(piece.source) : zone.network().segment_source(piece.source);
+}
+
 Status OgrWriter::add_piece(OGRLayer& layer, const Zone& zone, std::uint32_t piece) {
   Zone::Piece from = zone.piece(piece);
-  Network::Source source = from.from_vertex ? zone.network().vertex_source(from.source) : zone.network().segment_source(from.source);
+  const Network::Source source = source_of(zone, from);
   OGRFeature feature(layer.GetLayerDefn());
-  feature.SetField("radius", zone.signed_radius() < 0 ? -from.radius : from.radius);
+  feature.SetField("radius", zone.signed_radius() < 0 ? -from.radius : from.from_arc ? zone.radius() : from.radius);
   feature.SetField("kind", kind_of(from));
   feature.SetField("source_feature", static_cast<GIntBig>(source.feature));
   feature.SetField("source_part", static_cast<GIntBig>(source.part));

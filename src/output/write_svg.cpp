@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "krepl/curve_network.hpp"
 #include "output/output_stream.hpp"
 #include "output/svg_text.hpp"
 #include "output/zone_writers.hpp"
@@ -46,15 +47,32 @@ Status put_zone(SvgText& text, OutputStream& stream, const Zone& zone, const Con
   return std::monostate{};
 }
 
-Status put_network(SvgText& text, OutputStream& stream, const Network& network, const Context& context) {
+Status put_network(SvgText& text, OutputStream& stream, const Zone& zone, const Context& context) {
+  const Network& network = zone.network();
   text.put("<g class=\"input\">\n");
   for (std::uint32_t part = 0; part < network.part_count(); ++part) {
     if (context.cancelled()) return interrupted_while_writing();
     text.put("<path d=\"");
     std::span<const std::uint32_t> chain = network.part(part);
-    for (std::size_t i = 0; i < chain.size(); ++i) {
+    const auto at = [&](std::size_t i) {
       const Point local = network.vertices()[chain[i]], origin = network.origin();
-      text.put_absolute(i == 0 ? 'M' : 'L', {origin.x + local.x, origin.y + local.y});
+      return Point{origin.x + local.x, origin.y + local.y};
+    };
+    std::span<const std::uint32_t> middles;
+    if (zone.curves() != nullptr) middles = zone.curves()->part_middles(part);
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      std::optional<Zone::Piece> arc;
+      if (!middles.empty() && middles.front() == i) {
+        middles = middles.subspan(1);
+        arc = arc_of_input(at(i - 1), at(i), at(i + 1));
+      }
+      if (!arc) {
+        text.put_absolute(i == 0 ? 'M' : 'L', at(i));
+        continue;
+      }
+      const std::vector<Point> ends = arc_ends(*arc, largest_svg_arc);
+      for (std::size_t k = 1; k < ends.size(); ++k) text.put_arc(arc->radius, ends[k], arc->clockwise);
+      ++i;
     }
     // A stroke of no length with round caps shows as a dot.
     text.put(chain.size() == 1 ? "h0" : network.part_is_ring(part) ? "Z" : "");
@@ -73,6 +91,14 @@ Box box_of(std::span<const Zone> zones, Point origin) {
   constexpr double far = std::numeric_limits<double>::infinity();
   Box box{far, far, -far, -far};
   for (const Zone& zone : zones) {
+    for (std::uint32_t e = 0; zone.curves() != nullptr && e < zone.piece_count(); ++e) {
+      const Zone::Piece piece = zone.piece(e);
+      if (piece.kind != Zone::Kind::arc) continue;
+      for (const Point& p : arc_ends(piece, std::numbers::pi / 16)) {  // hardly off what arcs reach
+        box = {std::min(box.west, p.x - origin.x), std::min(box.south, p.y - origin.y), std::max(box.east, p.x - origin.x),
+               std::max(box.north, p.y - origin.y)};
+      }
+    }
     const double x = zone.network().origin().x - origin.x, y = zone.network().origin().y - origin.y, r = zone.radius();
     for (const Point& v : zone.network().vertices()) {
       box = {std::min(box.west, x + v.x - r), std::min(box.south, y + v.y - r), std::max(box.east, x + v.x + r),
@@ -119,7 +145,7 @@ WriteResult write_svg(const std::string& path, std::span<const Zone> zones, cons
   for (const Zone& zone : zones) {
     if (!drawn.empty() && drawn.back() == &zone.network()) continue;
     drawn.push_back(&zone.network());
-    if (Status put = put_network(text, *stream, zone.network(), context); !put) return put.error();
+    if (Status put = put_network(text, *stream, zone, context); !put) return put.error();
   }
   text.put("</svg>\n");
   text.flush(*stream);

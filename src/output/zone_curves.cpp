@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "kernel/vectors.hpp"
+#include "model/arc_circle.hpp"
+#include "zone/arc_turn.hpp"
 
 namespace krepl::output {
 
@@ -28,12 +30,27 @@ std::vector<Point> circle_points(const Zone::Piece& circle) {
   return {circle.start, {c.x - u.y, c.y + u.x}, {c.x - u.x, c.y - u.y}, {c.x + u.y, c.y - u.x}, circle.start};
 }
 
-void halve(std::vector<Point>& ends, Point center) {
+/// Halfway along a counter-clockwise arc; of one about an arc of the input by its chord and radius, where these tell.
+Point middle_of(const Zone::Piece& arc) {
+  if (!arc.from_arc || !zone::is_short_arc(arc)) return arc_middle(arc.center, arc.start, arc.end);
+  const Point chord = arc.end - arc.start;
+  const double half = std::hypot(chord.x, chord.y) / 2;
+  const double height = half * half / (arc.radius + std::sqrt((arc.radius - half) * (arc.radius + half)));
+  return {arc.start.x + chord.x / 2 + chord.y / (2 * half) * height,
+          arc.start.y + chord.y / 2 - chord.x / (2 * half) * height};
+}
+
+Zone::Piece between(Zone::Piece arc, Point start, Point end) {
+  arc.start = start, arc.end = end;
+  return arc;
+}
+
+void halve(std::vector<Point>& ends, const Zone::Piece& arc) {
   std::vector<Point> finer;
   finer.reserve(2 * ends.size());
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     finer.push_back(ends[i]);
-    finer.push_back(arc_middle(center, ends[i], ends[i + 1]));
+    finer.push_back(middle_of(between(arc, ends[i], ends[i + 1])));
   }
   finer.push_back(ends.back());
   ends = std::move(finer);
@@ -58,6 +75,7 @@ std::vector<Point> as_it_runs(const Zone::Piece& arc, std::vector<Point> points)
 }  // namespace
 
 double arc_angle(const Zone::Piece& piece) {
+  if (piece.from_arc) return is_negligible(piece) ? 0 : zone::arc_turn(piece);
   const Zone::Piece arc = counter_clockwise(piece);
   if (arc.start == arc.end) return 2 * pi;
   Point u = arc.start - arc.center, v = arc.end - arc.center;
@@ -90,7 +108,8 @@ std::vector<Point> arc_points(const Zone::Piece& piece) {
   if (piece.clockwise) return as_it_runs(piece, arc_points(counter_clockwise(piece)));
   const Zone::Piece& arc = piece;
   if (arc.start == arc.end) return circle_points(arc);
-  Point middle = arc_middle(arc.center, arc.start, arc.end);
+  Point middle = middle_of(arc);
+  if (arc.from_arc && zone::is_short_arc(arc)) return {arc.start, middle, arc.end};
   Point u = arc.start - arc.center, v = arc.end - arc.center;
   if (cross(u, v) >= 0) return {arc.start, middle, arc.end};
   return {arc.start, arc_middle(arc.center, arc.start, middle), middle,
@@ -105,8 +124,18 @@ std::vector<Point> arc_ends(const Zone::Piece& piece, double largest) {
     ends = circle_points(arc);
     angle /= 4;
   }
-  for (; angle > largest; angle /= 2) halve(ends, arc.center);
+  for (; angle > largest; angle /= 2) halve(ends, arc);
   return as_it_runs(piece, std::move(ends));
+}
+
+std::optional<Zone::Piece> arc_of_input(Point start, Point middle, Point end) {
+  const auto circle = model::arc_circle<kernel::quad>(start, middle, end);
+  Zone::Piece piece{Zone::Kind::arc, start, end, {}, 0, false, static_cast<double>(circle.radius)};
+  piece.center = {static_cast<double>(start.x + circle.to_center_x), static_cast<double>(start.y + circle.to_center_y)};
+  piece.clockwise = !circle.left;
+  piece.from_arc = true;
+  if (!std::isfinite(piece.radius) || piece.radius == 0) return std::nullopt;
+  return piece;
 }
 
 double piece_length(const Zone::Piece& piece) {
@@ -140,6 +169,10 @@ RingMeasure measure_ring(const Zone& zone, std::uint32_t ring) {
     measure.area += cross(piece.start - base, piece.end - base) / 2;
     measure.length += piece_length(piece);
     if (piece.kind != Zone::Kind::arc) continue;
+    if (piece.from_arc) {
+      measure.area += zone::twice_bulge(piece) / 2;
+      continue;
+    }
     double angle = arc_angle(piece);
     measure.area += (piece.clockwise ? -1 : 1) * piece.radius * piece.radius * (angle - std::sin(angle)) / 2;
   }

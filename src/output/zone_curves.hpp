@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "krepl/zone.hpp"
@@ -32,6 +33,9 @@ std::vector<Point> arc_points(const Zone::Piece& arc);
 
 /// The arc cut into `2^k` equal parts of at most `largest` radians: their ends, start and end included, as it runs.
 std::vector<Point> arc_ends(const Zone::Piece& arc, double largest);
+
+/// An arc of the input, given by three places, as a piece. Nothing where they are in line.
+std::optional<Zone::Piece> arc_of_input(Point start, Point middle, Point end);
 
 double piece_length(const Zone::Piece& piece);
 

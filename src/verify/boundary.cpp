@@ -51,6 +51,27 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
     return best;
   };
 
+  /// The arc of the input that is concentric with these three places, R away from them all.
+  const auto find_arc = [&](const Vec(&p)[3], std::optional<CircularArc>& bow) {
+    Box around;
+    around.add(p[1]);
+    Real best = HUGE_VALL;
+    const auto& segments = obstacle.segments();
+    segments.for_each_in(around.grown(radius + tolerance), [&](std::uint32_t i) {
+      const auto& own = segments.items()[i].arc;
+      if (!own) return;
+      const Real r = radius - segments.items()[i].inset;
+      for (const Real side : {r, -r}) {
+        Real worst = 0;
+        for (const Vec& q : p) worst = std::max(worst, std::abs(own->off_circle(q) - side));
+        if (worst >= best || own->r + side <= 0) continue;
+        best = worst;
+        bow = CircularArc::about(*own, p[0], p[1], p[2]);
+      }
+    });
+    return best;
+  };
+
   const auto add = [&](const input::ResultPiece& piece, bool outer) {
     Curve curve;
     curve.a = piece.start, curve.b = piece.end, curve.ring = ring;
@@ -62,8 +83,15 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
           piece.start == piece.end ? (circle = 0.5L * (p[0] + p[1]), true) : circle_through(p[0], p[1], p[2], circle);
       Vec centre;
       Real own_radius = radius;
-      const Real off = find_centre(p, centre, own_radius);
-      if (off <= tolerance) {
+      Real off = find_centre(p, centre, own_radius);
+      std::optional<CircularArc> bow;
+      const Real off_arc = obstacle.has_arcs() && off > 0 ? find_arc(p, bow) : HUGE_VALL;
+      if (off_arc <= tolerance && off_arc < off) {
+        off = off_arc;
+        if (piece.start == piece.end) bow->left = outer;
+        curve.bow = std::make_shared<const CircularArc>(*bow);
+        curve.c = bow->a + bow->to_centre, curve.r = bow->r, curve.arc = true;
+      } else if (off <= tolerance) {
         curve.c = centre, curve.r = own_radius, curve.arc = true;
       } else {
         ++fit.without_centre;
@@ -71,7 +99,9 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
       }
       // Without any vertex near R the difference has no value; the count tells.
       if (off < HUGE_VALL && off > fit.worst) fit.worst = off, fit.where = p[1];
-      if (curve.arc)
+      if (curve.bow)
+        curve.sweep = curve.bow->sweep();
+      else if (curve.arc)
         curve.sweep =
             piece.start == piece.end ? (outer ? 2 * pi : -2 * pi) : sweep_of(p[0], p[1], p[2], curve.c, curve.r);
       // An arc whose ends coincide on a ray from the centre has no extent.
@@ -146,6 +176,10 @@ Real Boundary::perimeter() const {
 void Boundary::make_parts() {
   std::vector<std::pair<Real, Real>> ranges;
   for (Curve e : curves_.items()) {
+    if (e.bow) {
+      add_parts_of(e.bow->in_ray_frame(), e.ring, ranges);
+      continue;
+    }
     e.a = ray_frame(e.a), e.b = ray_frame(e.b), e.c = ray_frame(e.c);
     // Cut arcs at the top and the bottom of their circle.
     std::vector<std::pair<Real, Vec>> cuts{{0, e.a}};
@@ -171,17 +205,46 @@ void Boundary::make_parts() {
   bands_ = Bands(ranges);
 }
 
+void Boundary::add_parts_of(const CircularArc& arc, std::uint32_t ring, std::vector<std::pair<Real, Real>>& ranges) {
+  const auto whole = std::make_shared<const CircularArc>(arc);
+  // Cut at the top and the bottom of the circle; the fraction of the arc comes from the chord up to there, or the angle.
+  std::vector<std::pair<Real, Vec>> cuts{{0, arc.a}, {1, arc.b}};
+  for (const Real sign : {Real(1), Real(-1)}) {
+    const Vec pole = arc.pole(sign);
+    if (!arc.spans(arc.a + pole)) continue;
+    const Real angle = arc.angle_to(arc.a + pole);
+    const Real fraction = angle / std::abs(arc.sweep());
+    if (fraction > 0 && fraction < 1) cuts.emplace_back(fraction, arc.a + pole);
+  }
+  std::sort(cuts.begin(), cuts.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    Part part{cuts[i].second, cuts[i + 1].second, 0, {}, arc.r, ring, whole};
+    const Vec inner = arc.at((cuts[i].first + cuts[i + 1].first) / 2) - arc.a;
+    part.side = inner.x > arc.to_centre.x ? 1 : -1;
+    if (part.a.y == part.b.y) continue;
+    ranges.push_back(std::minmax(part.a.y, part.b.y));
+    parts_.push_back(part);
+  }
+}
+
 int Boundary::Part::crosses(Vec p) const {
   if ((a.y <= p.y) == (b.y <= p.y)) return 0;
   const int sense = b.y > a.y ? 1 : -1;
   if (side == 0) return sense * cross(b - a, p - a) > 0 ? sense : 0;
-  const bool in_circle = verify::distance(p, c) < r;
-  const bool left_of_part = side > 0 ? p.x < c.x || in_circle : p.x < c.x && !in_circle;
+  const bool in_circle = bow ? bow->off_circle(p) < 0 : verify::distance(p, c) < r;
+  const bool left_of_centre = bow ? p.x - bow->a.x < bow->to_centre.x : p.x < c.x;
+  const bool left_of_part = side > 0 ? left_of_centre || in_circle : left_of_centre && !in_circle;
   return left_of_part ? sense : 0;
 }
 
 Real Boundary::Part::x_at(Real y) const {
   if (side == 0) return a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
+  if (bow) {
+    std::vector<Real> x;
+    bow->crossings(y, 0, x);
+    if (x.empty()) return a.x;
+    return side > 0 ? std::max(x[0], x[1]) : std::min(x[0], x[1]);
+  }
   const Real h = y - c.y;
   return c.x + side * std::sqrt(std::max(Real(0), (r - h) * (r + h)));
 }

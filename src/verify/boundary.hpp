@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Curve {
   Real r = 0;
   Real sweep = 0;  ///< arcs: signed angle from a to b, counter-clockwise positive; a full circle has +-2 pi
   std::uint32_t ring = 0;
+  std::shared_ptr<const CircularArc> bow = {};  ///< the same where it is about an arc of the input: its circle may be vast
 
   /// Point at the fraction t of the piece.
   Vec at(Real t) const;
@@ -31,7 +33,8 @@ struct Curve {
   bool sweeps(Vec d) const;
 };
 
-/// What turning a result's pieces into curves found about its arcs: each must be centred at an input vertex.
+/// What turning a result's pieces into curves found about its arcs: each must be centred at an input vertex, or be
+/// concentric with an arc of the input and R away from it.
 struct ArcFit {
   std::size_t arcs = 0;
   std::size_t without_centre = 0;  ///< arcs for which no input vertex lies at distance about R of all three points
@@ -77,6 +80,7 @@ class Boundary {
     Vec c;
     Real r = 0;
     std::uint32_t ring = 0;
+    std::shared_ptr<const CircularArc> bow = {};  // of all of the curve
     /// +-1 if the part crosses the ray from p (in the ray frame) towards +x upwards / downwards, else 0.
     int crosses(Vec p) const;
     /// Where the part meets height y; precondition: it does.
@@ -86,6 +90,7 @@ class Boundary {
                                     Real radius, Real tolerance, ArcFit& fit);
   void make_rings(const std::vector<input::ResultPolygon>& polygons);
   void make_parts();
+  void add_parts_of(const CircularArc& arc, std::uint32_t ring, std::vector<std::pair<Real, Real>>& ranges);
   Real ring_area(const Ring& ring) const;
 
   ArcFit arc_fit_;

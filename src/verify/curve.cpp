@@ -14,11 +14,13 @@ Vec turned(Vec v, Real angle) {
 }  // namespace
 
 Vec Curve::at(Real t) const {
+  if (bow) return bow->at(t);
   if (!arc) return a + t * (b - a);
   return c + turned(a - c, t * sweep);
 }
 
 Vec Curve::normal(Real t) const {
+  if (bow) return bow->normal(t);
   if (!arc) {
     const Vec d = b - a;
     const Real l = verify::length(d);
@@ -39,6 +41,7 @@ bool Curve::sweeps(Vec d) const {
 }
 
 Real Curve::distance(Vec p) const {
+  if (bow) return bow->distance(p);
   if (!arc) return distance_to_segment(p, a, b);
   const Vec d = p - c;
   if (sweeps(d)) return std::abs(verify::length(d) - r);
@@ -46,6 +49,7 @@ Real Curve::distance(Vec p) const {
 }
 
 Box Curve::box() const {
+  if (bow) return bow->box();
   Box result;
   result.add(a), result.add(b);
   if (arc)

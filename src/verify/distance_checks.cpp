@@ -28,7 +28,8 @@ Vec sample_point(const ZoneCase& zone, const Box& region, std::size_t i) {
     const auto& segments = zone.obstacle.segments().items();
     const auto& s = segments[random.below(segments.size())];
     const Real t = random.unit(), far = 1.5L * zone.radius * random.unit(), angle = 2 * pi * random.unit();
-    return Vec(s.a) + t * (Vec(s.b) - Vec(s.a)) + far * Vec(std::cos(angle), std::sin(angle));
+    const Vec foot = s.arc ? s.arc->at(t) : Vec(s.a) + t * (Vec(s.b) - Vec(s.a));
+    return foot + far * Vec(std::cos(angle), std::sin(angle));
   }
   const Curve& curve = curves[random.below(curves.size())];
   const Real t = random.unit();
@@ -101,7 +102,11 @@ Check check_coverage(const ZoneCase& zone) {
     const Vec a = segments[i].a, b = segments[i].b;
     const Real l = distance(a, b), r = zone.radius - segments[i].inset;
     for (std::size_t k = 0; k < each; ++k) {
-      if (l > 0) {
+      if (segments[i].arc) {
+        const Real fraction = random.unit();
+        const Vec foot = segments[i].arc->at(fraction), n = segments[i].arc->normal(fraction);
+        probe(foot, n, r, t), probe(foot, Real(-1) * n, r, t);
+      } else if (l > 0) {
         const Vec n = (1 / l) * left_of(b - a);
         const Vec foot = a + random.unit() * (b - a);
         probe(foot, n, r, t), probe(foot, Real(-1) * n, r, t);

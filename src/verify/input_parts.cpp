@@ -1,5 +1,6 @@
 #include "verify/input_parts.hpp"
 
+#include "input/collected.hpp"
 #include "input/feature_reader.hpp"
 #include "input/geometry_source.hpp"
 #include "input/parts.hpp"
@@ -10,9 +11,10 @@ namespace krepl::verify {
 
 namespace {
 
-Result<input::Parts> read_all(input::GeometrySource& source, double arc_error, const Context& context) {
+Result<input::Parts> read_all(input::GeometrySource& source, double arc_error, bool keep_arcs, const Context& context) {
   input::Parts parts;
   parts.arc_error = arc_error;
+  parts.keep_arcs = keep_arcs;
   for (;;) {
     if (context.cancelled()) return Error{ErrorCode::cancelled, "interrupted while reading", "", ""};
     auto item = source.next();
@@ -33,7 +35,8 @@ std::vector<InputPart> plain(const input::Parts& parts) {
                     parts.points.begin() + std::ptrdiff_t(parts.begin[i + 1])},
                    parts.kind[i] == input::Parts::Kind::ring,
                    parts.feature[i],
-                   0});
+                   0,
+                   parts.middles_of(i)});
   return out;
 }
 
@@ -55,15 +58,17 @@ Result<std::vector<InputPart>> read_parts(const InputRequest& request, const Con
   if (!request.radius_field.empty() || !request.radius_expression.empty()) return read_parts_with_radii(request, context);
   auto source = input::open_geometry_source(request.path, {request.layer, request.where}, context);
   if (!source) return source.error();
-  auto parts = read_all(**source, request.arc_error, context);
+  auto parts = read_all(**source, request.arc_error, request.keep_arcs, context);
   if (!parts) return parts.error();
   if (parts->size() == 0)
     return Error{ErrorCode::input, "has no geometry to check against", "", "give the input of the result"};
 
+  const auto place = [&](std::int64_t number) { return (*source)->place(number); };
+  if (Status plane = input::check_projection(*parts, request.to_crs, place); !plane) return plane.error();
   input::ProjectionRequest projection;
   projection.from = (*source)->crs();
   projection.to_crs = request.to_crs;
-  projection.place = [&](std::int64_t number) { return (*source)->place(number); };
+  projection.place = place;
   if (!request.crs.empty()) {
     auto assigned = ogr::parse_crs(request.crs);
     if (!assigned) return assigned.error();

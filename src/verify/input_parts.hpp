@@ -13,6 +13,7 @@ namespace krepl::verify {
 struct InputRequest {
   std::string path, layer, where, crs, to_crs;
   double arc_error = 0;
+  bool keep_arcs = false;  ///< without `arc_error` arcs are kept
   std::string radius_field = {}, radius_expression = {};  ///< a radius of its own for each part
 };
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "krepl/point.hpp"
 #include "verify/bands.hpp"
+#include "verify/circular_arc.hpp"
 #include "verify/nearest_tree.hpp"
 
 namespace krepl::verify {
@@ -15,6 +17,7 @@ struct InputPart {
   bool ring = false;
   std::int64_t feature = -1;  ///< rings of one feature count by the even-odd rule
   double radius = 0;          ///< of its own; 0: the one of the zone
+  std::vector<std::uint32_t> middles = {};  ///< ascending: vertices that are the middle of an arc between their neighbours
 };
 
 /// The input of a zone: segments and points as they were read, nothing welded, cut or dropped.
@@ -26,12 +29,14 @@ class Obstacle {
   struct Segment {
     Point a, b;  ///< equal: a point
     Real inset = 0;
+    std::shared_ptr<const CircularArc> arc = {};  ///< an arc from a to b; null: straight
     Box box() const {
+      if (arc) return arc->box();
       Box r;
       r.add(a), r.add(b);
       return r;
     }
-    Real distance(Vec p) const { return distance_to_segment(p, a, b) + inset; }
+    Real distance(Vec p) const { return (arc ? arc->distance(p) : distance_to_segment(p, a, b)) + inset; }
   };
   struct Vertex {
     Point at;
@@ -60,6 +65,7 @@ class Obstacle {
   /// True if p is inside some polygon by the even-odd rule of its feature.
   bool in_polygon(Vec p) const;
   bool has_polygons() const { return !sides_.empty(); }
+  bool has_arcs() const { return !arcs_.empty(); }
   /// Length inside the zone of radius r of the line at height y of the ray frame, from the cigars themselves: each
   /// meets the line in one interval, and the union of the intervals is measured.
   Real section(Real y, Real r) const;
@@ -72,9 +78,16 @@ class Obstacle {
   struct Side {  // of a polygon ring, in the ray frame
     Vec a, b;
     std::uint32_t polygon;
+    std::shared_ptr<const CircularArc> arc;
+    bool crosses(Vec p) const;  // the ray towards +x an odd number of times
+  };
+  struct Arc {  // of the input, in the ray frame
+    CircularArc curve;
+    Real inset, low, high;
   };
   using Interval = std::pair<Real, Real>;
   void add_cigars(Real y, Real r, std::vector<Interval>& out) const;
+  void add_arcs(Real y, Real r, std::vector<Interval>& out) const;
   void add_polygons(Real y, std::vector<Interval>& out) const;
 
   static std::vector<Segment> cut(const std::vector<InputPart>& parts, double radius);
@@ -88,6 +101,7 @@ class Obstacle {
   };
   std::vector<Axis> axes_;  // the segments in the ray frame, by lower end
   Real tallest_ = 0;
+  std::vector<Arc> arcs_;
   std::vector<Side> sides_;
   Bands side_bands_;
 };

@@ -8,9 +8,38 @@ namespace krepl::verify {
 
 namespace {
 
+/// Of vast circles differences of squares tell nothing: their arcs count as chords, and what is found so is polished.
+bool is_vast(const Curve& e) { return e.bow && e.bow->is_short() && e.r > 0x1p10L * distance(e.a, e.b); }
+bool is_round(const Curve& e) { return e.arc && !is_vast(e); }
+
+/// How far a place is from the curve's line or circle, with a sign, and the direction in which that grows.
+Real off(const Curve& e, Vec p, Vec& out) {
+  if (!e.arc) {
+    const Vec n = left_of(e.b - e.a);
+    out = (1 / length(n)) * n;
+    return dot(out, p - e.a);
+  }
+  const Vec d = e.bow ? (p - e.bow->a) - e.bow->to_centre : p - e.c;
+  out = (1 / length(d)) * d;
+  return e.bow ? e.bow->off_circle(p) : length(d) - e.r;
+}
+
+/// The place near p where both curves are, by Newton's method; from far away it needs some steps.
+Vec polished(const Curve& e, const Curve& f, Vec p) {
+  for (int k = 0; k < 30; ++k) {
+    Vec m, n;
+    const Real g = off(e, p, m), h = off(f, p, n), turn = cross(m, n);
+    if (std::abs(turn) < 1e-15L) return p;
+    const Vec step = (1 / turn) * Vec(h * m.y - g * n.y, g * n.x - h * m.x);
+    p = p + step;
+    if (length(step) <= 1e-18L * (std::abs(p.x) + std::abs(p.y))) return p;
+  }
+  return p;
+}
+
 /// Points where the full lines or circles of two curves meet; at most two.
 int meetings(const Curve& p, const Curve& q, Vec (&out)[2]) {
-  if (!p.arc && !q.arc) {
+  if (!is_round(p) && !is_round(q)) {
     const Vec u = p.b - p.a, v = q.b - q.a;
     const Real turn = cross(u, v);
     if (turn == 0) return 0;
@@ -19,7 +48,7 @@ int meetings(const Curve& p, const Curve& q, Vec (&out)[2]) {
   }
   Vec base, across;  // meetings at base +- across
   Real square;
-  if (p.arc && q.arc) {
+  if (is_round(p) && is_round(q)) {
     const Vec d = q.c - p.c;
     const Real dd = dot(d, d);
     if (dd == 0) return 0;
@@ -28,8 +57,8 @@ int meetings(const Curve& p, const Curve& q, Vec (&out)[2]) {
     square = p.r * p.r - along * along / dd;
     across = (1 / std::sqrt(dd)) * left_of(d);
   } else {
-    const Curve& line = p.arc ? q : p;
-    const Curve& circle = p.arc ? p : q;
+    const Curve& line = is_round(p) ? q : p;
+    const Curve& circle = is_round(p) ? p : q;
     const Vec d = line.b - line.a;
     const Real l = length(d);
     if (l == 0) return 0;
@@ -45,14 +74,15 @@ int meetings(const Curve& p, const Curve& q, Vec (&out)[2]) {
 }
 
 bool within(const Curve& e, Vec p) {
-  if (e.arc) return e.sweeps(p - e.c);
+  if (e.bow) return e.bow->spans(p);
+  if (is_round(e)) return e.sweeps(p - e.c);
   const Vec d = e.b - e.a;
   const Real t = dot(p - e.a, d);
   return t > 0 && t < dot(d, d);
 }
 
 Vec tangent(const Curve& e, Vec p) {
-  const Vec d = e.arc ? left_of(p - e.c) : e.b - e.a;
+  const Vec d = e.bow ? left_of((p - e.bow->a) - e.bow->to_centre) : e.arc ? left_of(p - e.c) : e.b - e.a;
   const Real l = length(d);
   return l > 0 ? (1 / l) * d : Vec();
 }
@@ -61,6 +91,8 @@ Vec tangent(const Curve& e, Vec p) {
 Real crossing_depth(const Curve& p, const Curve& q, Vec& where) {
   Vec m[2];
   const int count = meetings(p, q, m);
+  if (is_vast(p) || is_vast(q))
+    for (int k = 0; k < count; ++k) m[k] = polished(p, q, m[k]);
   Real deepest = 0;
   for (int k = 0; k < count; ++k) {
     if (!within(p, m[k]) || !within(q, m[k])) continue;

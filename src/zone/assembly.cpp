@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "kernel/parallel.hpp"
+#include "krepl/curve_network.hpp"
 
 namespace krepl {
 
@@ -34,7 +35,7 @@ Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, double
   zone.inward_ = distance < 0;
   zone.network_ = std::move(network);
   for (Zone::Piece& p : rings.piece) {
-    p.radius = zone.radius_;
+    if (!p.from_arc) p.radius = zone.radius_;
     zone.vertex_.push_back(p.start);
   }
   zone.shaped_ = std::move(rings.piece);
@@ -43,6 +44,13 @@ Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, double
   zone.counters_ = counters;
   add_polygons(zone, *nesting);
   add_subdivision(zone, *nesting, context);
+  return zone;
+}
+
+Result<Zone> ZoneAssembly::finish(std::shared_ptr<const CurveNetwork> curves, double distance, zone::ShapedRings rings,
+                                  double slack, const ZoneCounters& counters, const Context& context) {
+  auto zone = finish(curves->share_straight(), distance, std::move(rings), slack, counters, context);
+  if (zone.ok()) zone->curves_ = std::move(curves);
   return zone;
 }
 

@@ -21,6 +21,9 @@ class ZoneAssembly {
   /// shrunk; opposite boundaries are no nearer to each other than `slack`.
   static Result<Zone> finish(std::shared_ptr<const Network> network, double distance, zone::ShapedRings rings,
                              double slack, const ZoneCounters& counters, const Context& context);
+  /// The same of lines with arcs.
+  static Result<Zone> finish(std::shared_ptr<const CurveNetwork> curves, double distance, zone::ShapedRings rings,
+                             double slack, const ZoneCounters& counters, const Context& context);
 
  private:
   /// From closed and nested rings.

@@ -7,6 +7,7 @@
 #include "kernel/box_tree.hpp"
 #include "kernel/parallel.hpp"
 #include "kernel/vectors.hpp"
+#include "zone/arc_turn.hpp"
 #include "zone/polygon_locator.hpp"
 
 namespace krepl::zone {
@@ -31,14 +32,24 @@ class PieceShape {
       : p_(piece.clockwise ? piece.end : piece.start),
         q_(piece.clockwise ? piece.start : piece.end),
         centre_(piece.center),
-        radius_(radius),
-        arc_(piece.kind == Zone::Kind::arc) {}
+        radius_(piece.from_arc ? piece.radius : radius),
+        arc_(piece.kind == Zone::Kind::arc),
+        short_(arc_ && piece.from_arc && is_short_arc(piece)) {
+    if (!short_) return;
+    const double dx = q_.x - p_.x, dy = q_.y - p_.y, chord = std::hypot(dx, dy);
+    const double height = std::sqrt((radius_ - chord / 2) * (radius_ + chord / 2));
+    to_centre_ = {dx / 2 - dy / chord * height, dy / 2 + dx / chord * height};
+  }
 
   Box box() const {
     Box b;
     b.add(p_);
     b.add(q_);
     if (!arc_) return b;
+    if (short_) {
+      const double chord = std::hypot(q_.x - p_.x, q_.y - p_.y), bulge = chord * chord / (4 * radius_);
+      return {b.min_x - bulge, b.min_y - bulge, b.max_x + bulge, b.max_y + bulge};
+    }
     const Point c = centre_;
     for (const Point e : {Point{c.x + radius_, c.y}, {c.x, c.y + radius_}, {c.x - radius_, c.y}, {c.x, c.y - radius_}}) {
       if (on_arc(e)) b.add(e);
@@ -47,6 +58,11 @@ class PieceShape {
   }
 
   Point leftmost() const {
+    if (short_) {
+      const Point w = to_centre_, e{p_.x - w.y * w.y / (radius_ + w.x), p_.y + w.y};
+      if (w.x > 0 && on_arc(e)) return e;
+      return p_.x <= q_.x ? p_ : q_;
+    }
     const Point e{centre_.x - radius_, centre_.y};
     if (arc_ && on_arc(e)) return e;
     return p_.x <= q_.x ? p_ : q_;
@@ -65,6 +81,7 @@ class PieceShape {
       if ((p_.y < y) != (q_.y < y)) take(p_.x + (y - p_.y) / (q_.y - p_.y) * (q_.x - p_.x));
       return best;
     }
+    if (short_) return std::max(best, short_hit_left_of(limit_x, y, slack));
     const double dy = y - centre_.y;
     const double square = (radius_ - dy) * (radius_ + dy);
     if (square < -2 * radius_ * slack) return best;
@@ -81,6 +98,21 @@ class PieceShape {
     return p_ == q_ || cross(p_, q_, e) <= 0;  // right of the chord
   }
 
+  /// From p on, so that a centre far away does not matter: places v from it on the circle have v.v = 2 v.w, w the way to
+  /// the centre.
+  double short_hit_left_of(double limit_x, double y, double slack) const {
+    double best = -infinity;
+    const Point w = to_centre_;
+    const double dy = y - p_.y, rest = dy * (dy - 2 * w.y), square = w.x * w.x - rest;
+    if (square < -2 * radius_ * slack) return best;
+    const double large = w.x + std::copysign(std::sqrt(std::max(square, 0.0)), w.x), small = large != 0 ? rest / large : 0;
+    for (const double dx : {large, small}) {
+      const Point e{p_.x + dx, y};
+      if ((on_arc(e) || near_chord(e, slack)) && e.x < limit_x) best = std::max(best, e.x);
+    }
+    return best;
+  }
+
   /// A short arc is flatter than the error of its ends.
   bool near_chord(Point e, double slack) const {
     const double dx = q_.x - p_.x, dy = q_.y - p_.y, square = dx * dx + dy * dy;
@@ -91,6 +123,8 @@ class PieceShape {
   Point p_, q_, centre_;
   double radius_;
   bool arc_;
+  bool short_ = false;  // an arc from_arc that chord and radius tell
+  Point to_centre_;     // of a short one, from p
 };
 
 template <class AnyRings>
@@ -158,6 +192,10 @@ bool runs_clockwise(const ShapedRings& rings, double radius, Index r) {
     const Zone::Piece& p = rings.piece[e];
     twice += cross(base, p.start, p.end);
     if (p.kind != Zone::Kind::arc) continue;
+    if (p.from_arc) {
+      twice += twice_bulge(p);
+      continue;
+    }
     const Point from = p.clockwise ? p.end : p.start, to = p.clockwise ? p.start : p.end, c = p.center;
     double angle = std::atan2(cross(c, from, to), (from.x - c.x) * (to.x - c.x) + (from.y - c.y) * (to.y - c.y));
     if (from == to) angle = 2 * M_PI;

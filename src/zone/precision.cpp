@@ -24,17 +24,21 @@ Result<Precision> precision_for(const Network& network, double radius) {
 }
 
 Result<Precision> precision_for(const Network& network, double least, double radius) {
+  return precision_for(network.extent(), network.resolution(), least, radius);
+}
+
+Result<Precision> precision_for(double extent, double resolution, double least, double radius) {
   for (const double r : {least, radius}) {
     if (!std::isfinite(r) || r <= 0) {
       return Error{ErrorCode::usage, "the radius is " + number(r), "", "give a positive, finite number"};
     }
   }
-  const double scale = std::max(radius, network.extent());
+  const double scale = std::max(radius, extent);
   if (scale > largest_number || least < smallest_radius) {
     return Error{ErrorCode::input, "coordinates or radius are beyond 1e18, or the radius is below 1e-100", "",
                  "scale the input"};
   }
-  const double u = std::max(network.resolution(), unit_in_last_place(scale));
+  const double u = std::max(resolution, unit_in_last_place(scale));
   if (least < 16384 * u) {
     return Error{ErrorCode::usage, "the radius " + number(least) + " is finer than the coordinates can hold", "",
                  "use at least " + number(16384 * u)};

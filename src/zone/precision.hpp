@@ -22,5 +22,7 @@ struct Precision {
 Result<Precision> precision_for(const Network& network, double radius);
 /// The same for several radii at once: effective_radius is that of the largest.
 Result<Precision> precision_for(const Network& network, double least, double most);
+/// The same where the extent is more than that of the network's vertices.
+Result<Precision> precision_for(double extent, double resolution, double least, double most);
 
 }  // namespace krepl::zone

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "kernel/vectors.hpp"
+#include "krepl/curve_network.hpp"
+#include "zone/arc_turn.hpp"
 #include "zone/varied_sites.hpp"
 
 namespace krepl {
@@ -20,12 +22,13 @@ double sweep_angle(Point c, Point p, Point q) {
 
 /// The angle that an arc spans, positive if it runs counter-clockwise.
 double signed_angle(const Zone::Piece& arc) {
+  if (arc.from_arc) return (arc.clockwise ? -1 : 1) * zone::arc_turn(arc);
   return arc.clockwise ? -sweep_angle(arc.center, arc.end, arc.start) : sweep_angle(arc.center, arc.start, arc.end);
 }
 
 }  // namespace
 
-double Zone::scale() const { return std::max(radius_, network_->extent()); }
+double Zone::scale() const { return std::max(radius_, curves_ ? curves_->extent() : network_->extent()); }
 
 double Zone::least_radius() const { return varied_ ? varied_->least : radius_; }
 
@@ -77,6 +80,10 @@ double Zone::ring_area(std::uint32_t r) const {
     const Piece p = local_piece(e);
     twice += (p.start.x - o.x) * (p.end.y - o.y) - (p.start.y - o.y) * (p.end.x - o.x);
     if (p.kind == Kind::arc) {
+      if (p.from_arc) {
+        twice += zone::twice_bulge(p);
+        continue;
+      }
       const double angle = signed_angle(p);
       twice += p.radius * p.radius * (angle - std::sin(angle));
     }
@@ -112,12 +119,13 @@ std::optional<std::string> Zone::validate() const {
     };
     if (!std::isfinite(p.start.x) || !std::isfinite(p.start.y)) return complain("a vertex is not finite");
     if (p.kind == Kind::arc) {
+      const double rounding = p.from_arc ? 0x1p-50 * p.radius : 0;  // of a centre far away
       for (const Point q : {p.start, p.end}) {
-        if (!(std::abs(distance(q, p.center) - p.radius) <= tolerance)) return complain("an arc misses its radius");
+        if (!(std::abs(distance(q, p.center) - p.radius) <= tolerance + rounding)) return complain("an arc misses its radius");
       }
       continue;
     }
-    if (p.role != Role::offset || p.from_vertex) continue;
+    if (p.role != Role::offset || p.from_vertex || p.from_arc) continue;
     // Both ends of a segment are on the offset line of its source, and it runs with it.
     const auto s = network_->segments()[p.source];
     Point a = network_->vertices()[s.a], b = network_->vertices()[s.b];

@@ -1,4 +1,4 @@
-"""Arcs of the input: refused, or chords within --arc-error in their place, told on standard error."""
+"""Arcs of the input: kept where the zone is a whole round one, else refused, or chords within --arc-error in their place."""
 import math
 import re
 
@@ -78,8 +78,9 @@ class Arcs(support.CliTest):
         self.write("in.csv", f'id,wkt\n1,"CURVEPOLYGON ({STADIUM})"\n')
         self.ogr("ogr2ogr", "in.gpkg", "in.csv", "-oo", "GEOM_POSSIBLE_NAMES=wkt", "-oo", "KEEP_GEOM_COLUMNS=NO",
                  "-nlt", "CURVEPOLYGON", "-a_srs", "EPSG:25832")
-        self.fail_with(1, "in.gpkg: arcs as input are not supported, feature 1; give --arc-error LENGTH for chords in "
-                       "their place that deviate by no more", "buffer", "in.gpkg", "out.wkt", "--radius", R, output="out.wkt")
+        self.fail_with(1, "in.gpkg: arcs as input are supported by krepl buffer, for whole round zones, only, feature 1; give "
+                       "--arc-error LENGTH for chords in their place that deviate by no more",
+                       "buffer", "in.gpkg", "out.wkt", "--radius", -R, output="out.wkt")
         self.succeed("buffer", "in.gpkg", "out.wkt", "--radius", R, "--arc-error", ERROR)
         self.assertAlmostEqual(support.measure(self.text("out.wkt")).area,
                                200 + 25 * PI + (40 + 10 * PI) * R + PI * R * R, delta=ERROR * 100)
@@ -87,9 +88,10 @@ class Arcs(support.CliTest):
     def test_verify(self):
         self.zone(HALF, error=1e-3)
         self.succeed("verify", "out.wkt", "--against", "in.wkt", "--radius", R, "--arc-error", 1e-3)
+        # The chords deviate from the true arc.
         done = self.krepl("verify", "out.wkt", "--against", "in.wkt", "--radius", R)
         self.assertEqual(done.returncode, 1)
-        self.assertIn("arcs as input are not supported", done.stderr)
+        self.assertIn("is not the zone of radius 2", done.stderr)
 
     def test_other_verbs(self):
         self.write("in.wkt", HALF + "\n")
@@ -97,6 +99,63 @@ class Arcs(support.CliTest):
         length = sum(math.dist(*p) if len(p) == 2 else support.piece_measure(p)[0]
                      for p in support.Parser(self.text("out.wkt")).curve())
         self.assertIn(round(length, 1), (round(7 * PI, 1), round(13 * PI, 1)))
+
+    def kept(self, wkt, *options, radius=R):
+        self.write("in.wkt", wkt + "\n")
+        done = self.succeed("buffer", "in.wkt", "out.wkt", "--radius", radius, *options)
+        self.assertNotIn("chords", done.stderr)
+        self.succeed("verify", "out.wkt", "--against", "in.wkt", "--radius", radius)
+        return support.measure(self.text("out.wkt"))
+
+    def test_kept_as_arcs(self):
+        half, stadium = PI * (144 - 64) / 2 + PI * R * R, 200 + 25 * PI + (40 + 10 * PI) * R + PI * R * R
+        for wkt, area, arcs in (
+                (HALF, half, 4),
+                (f"MULTICURVE ({HALF}, (100 0, 110 0))", half + 10 * 2 * R + PI * R * R, 6),
+                (CIRCLE, PI * (144 - 64), 4),  # a full circle is written as two arcs
+                (f"CURVEPOLYGON ({CIRCLE})", PI * 144, 2),
+                (f"CURVEPOLYGON ({STADIUM})", stadium, 2),
+                (f"CURVEPOLYGON ({CIRCLE}, CIRCULARSTRING (5 0, 15 0, 5 0))", PI * 144 - PI * 9, 4),
+                (f"MULTISURFACE (CURVEPOLYGON ({CIRCLE}), ((100 0, 101 0, 101 1, 100 0)))",
+                 PI * 144 + 0.5 + (2 + 2 * ROOT) * R + PI * R * R, 5),
+                (f"GEOMETRYCOLLECTION ({HALF}, POINT (100 0))", half + PI * R * R, 6)):
+            with self.subTest(wkt=wkt):
+                zone = self.kept(wkt)
+                self.assertAlmostEqual(zone.area, area, delta=1e-10 * area)
+                self.assertGreaterEqual(zone.arcs, arcs)  # half circles may be written as two
+
+    def test_zone_of_a_zone(self):
+        self.kept("COMPOUNDCURVE ((-10 0, 0 0), CIRCULARSTRING (0 0, 10 10, 20 0, 30 -10, 40 0))", radius=1)
+        self.succeed("buffer", "out.wkt", "twice.wkt", "--radius", 2)
+        self.succeed("buffer", "in.wkt", "once.wkt", "--radius", 3)
+        self.succeed("verify", "twice.wkt", "--against", "in.wkt", "--radius", 3)
+        once, twice = (support.measure(self.text(name)) for name in ("once.wkt", "twice.wkt"))
+        self.assertAlmostEqual(once.area, twice.area, delta=1e-9 * once.length)
+
+    def test_threads_and_formats(self):
+        self.write("in.wkt", f"{HALF}\nCURVEPOLYGON ({STADIUM})\n{CIRCLE}\n")
+        for name in ("out.wkt", "out.svg", "out.dxf", "out.geojson"):
+            texts = []
+            for threads in (1, 2):
+                self.succeed("buffer", "in.wkt", name, "--radius", R, "--threads", threads)
+                texts.append(self.text(name))
+            self.assertEqual(*texts)
+        self.succeed("verify", "out.geojson", "--against", "in.wkt", "--radius", R, "--max-error", R / 1000)
+        svg = self.text("out.svg")
+        self.assertGreater(svg[svg.index('class="input"'):].count("A"), 3)  # the input's own arcs
+
+    def test_pieces_name_their_arc(self):
+        self.need("ogrinfo")
+        self.write("in.wkt", f"POINT (100 100)\n{HALF}\n")
+        self.succeed("buffer", "in.wkt", "out.gpkg", "--radius", R)
+        told = self.ogr("ogrinfo", "-al", "-geom=NO", "out.gpkg", "pieces")
+        self.assertEqual(told.count("source_feature (Integer64) = 2"), 4)
+        self.assertEqual(told.count("radius (Real) = 2\n"), 5)
+
+    def test_no_projection(self):
+        self.write("in.wkt", "SRID=25832;" + HALF + "\n")
+        self.fail_with(1, "in.wkt: arcs cannot be projected, line 1; give --arc-error LENGTH for chords in their place that "
+                       "deviate by no more", "buffer", "in.wkt", "out.wkt", "--radius", R, "--to-crs", "EPSG:25833", output="out.wkt")
 
     def test_bad_lengths(self):
         self.write("in.wkt", HALF + "\n")

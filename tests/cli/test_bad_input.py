@@ -87,9 +87,10 @@ class BadInput(support.CliTest):
                     self.write("nan.geojson", text))
 
     def test_arcs(self):
-        self.bad_wkt("POINT (0 0)\nCIRCULARSTRING (0 0, 1 1, 2 0)\n",
-                     "arcs as input are not supported, line 2; give --arc-error LENGTH for chords in their place that "
-                     "deviate by no more")
+        self.write("arcs.wkt", "POINT (0 0)\nCIRCULARSTRING (0 0, 1 1, 2 0)\n")
+        self.fail_with(1, "arcs.wkt: arcs as input are supported by krepl buffer, for whole round zones, only, line 2; give "
+                       "--arc-error LENGTH for chords in their place that deviate by no more",
+                       "buffer", "arcs.wkt", "out.wkt", "--radius", "1", "--cap", "flat", output="out.wkt")
 
     def test_surfaces_in_space(self):
         self.bad_wkt("TIN (((0 0 0, 0 0 1, 0 1 0, 0 0 0)))\n",

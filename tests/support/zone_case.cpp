@@ -11,6 +11,28 @@ namespace krepl::test {
 
 namespace {
 
+/// A compound curve of circular strings and lines.
+std::string curve_text(const InputPart& part) {
+  const auto put = [](Point p) {
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, "%.17g %.17g", p.x, p.y);
+    return std::string(buffer);
+  };
+  std::string t = "COMPOUNDCURVE (";
+  const auto& v = part.vertices;
+  auto middle = part.middles.begin();
+  for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+    if (i > 0) t += ", ";
+    const bool arc = middle != part.middles.end() && *middle == i + 1;
+    t += arc ? "CIRCULARSTRING (" : "(";
+    t += put(v[i]) + ", " + put(v[i + 1]);
+    if (arc) t += ", " + put(v[i + 2]), ++i, ++middle;
+    t += ")";
+  }
+  if (part.ring && !(v.front() == v.back())) t += ", (" + put(v.back()) + ", " + put(v.front()) + ")";
+  return t + ")";
+}
+
 std::string coordinates(const std::vector<Point>& vertices, bool close) {
   std::string t = "(";
   char buffer[64];
@@ -30,7 +52,9 @@ std::string text(const ZoneCase& c) {
   for (std::size_t i = 0; i < c.parts.size(); ++i) {
     if (i > 0) t += ", ";
     const InputPart& part = c.parts[i];
-    if (part.ring) {
+    if (!part.middles.empty()) {
+      t += part.ring ? "CURVEPOLYGON (" + curve_text(part) + ")" : curve_text(part);
+    } else if (part.ring) {
       t += "POLYGON (" + coordinates(part.vertices, true);
       for (; i + 1 < c.parts.size() && c.parts[i + 1].ring && c.parts[i + 1].feature == part.feature; ++i)
         t += ", " + coordinates(c.parts[i + 1].vertices, true);
@@ -56,9 +80,35 @@ double largest_radius(const ZoneCase& c) {
   return largest > 0 ? largest : c.radius;
 }
 
-InputPart line(std::vector<Point> vertices) { return {std::move(vertices), false, -1, 0}; }
-InputPart ring(std::vector<Point> vertices, std::int64_t feature) { return {std::move(vertices), true, feature, 0}; }
-InputPart point(double x, double y) { return {{{x, y}}, false, -1, 0}; }
+InputPart line(std::vector<Point> vertices) { return {std::move(vertices), false, -1, 0, {}}; }
+InputPart curve(std::vector<Point> vertices, std::vector<std::uint32_t> middles) {
+  return {std::move(vertices), false, -1, 0, std::move(middles)};
+}
+InputPart curve_ring(std::vector<Point> vertices, std::vector<std::uint32_t> middles, std::int64_t feature) {
+  return {std::move(vertices), true, feature, 0, std::move(middles)};
+}
+
+Result<CurveNetwork> curve_network_of(const ZoneCase& c, const Context& context) {
+  CurveNetwork::Builder builder;
+  for (const InputPart& part : c.parts) {
+    if (part.ring)
+      builder.add_ring(part.vertices, part.middles, part.feature);
+    else if (part.vertices.size() == 1)
+      builder.add_point(part.vertices[0], part.feature);
+    else
+      builder.add_line(part.vertices, part.middles, part.feature);
+  }
+  return std::move(builder).build(context);
+}
+
+Result<Zone> curve_zone_of(const ZoneCase& c, const Context& context) {
+  auto network = curve_network_of(c, context);
+  if (!network) return network.error();
+  return compute_zone(std::make_shared<const CurveNetwork>(std::move(*network)), ZoneOptions{c.radius}, context);
+}
+
+InputPart ring(std::vector<Point> vertices, std::int64_t feature) { return {std::move(vertices), true, feature, 0, {}}; }
+InputPart point(double x, double y) { return {{{x, y}}, false, -1, 0, {}}; }
 
 Result<Network> network_of(const ZoneCase& c, const Context& context) {
   Network::Builder builder;
@@ -100,6 +150,15 @@ input::ResultPiece plain(const Zone::Piece& piece) {
   if (sweep < 0) sweep += two_pi;
   if (piece.start == piece.end) sweep = two_pi;
   if (piece.clockwise && piece.start != piece.end) sweep -= two_pi;
+  const Real dx = Real(piece.end.x) - piece.start.x, dy = Real(piece.end.y) - piece.start.y;
+  const Real chord = std::hypot(dx, dy), r = piece.radius;
+  const bool vast = std::abs(ux * vy - uy * vx) < 1e-13L * r * r && chord < r / 4;
+  if (piece.from_arc && piece.start != piece.end && (std::abs(sweep) < two_pi / 4 || vast)) {
+    // The centre may be far away, and rounded: the height above the chord, to the right of a left turn.
+    const Real height = chord * chord / 4 / (r + std::sqrt((r - chord / 2) * (r + chord / 2))) * (piece.clockwise ? -1 : 1);
+    p.middle = {double(piece.start.x + dx / 2 + dy / chord * height), double(piece.start.y + dy / 2 - dx / chord * height)};
+    return p;
+  }
   const Real c = std::cos(sweep / 2), s = std::sin(sweep / 2);
   p.middle = {double(piece.center.x + c * ux - s * uy), double(piece.center.y + s * ux + c * uy)};
   return p;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "krepl/curve_zone.hpp"
 #include "krepl/shape.hpp"
 #include "krepl/zone.hpp"
 #include "verify/zone_verifier.hpp"
@@ -28,8 +29,15 @@ std::string text(const ZoneCase& c);
 inline std::ostream& operator<<(std::ostream& out, const ZoneCase& c) { return out << text(c); }
 
 InputPart line(std::vector<Point> vertices);
+/// Lines and rings with arcs: where `middles` holds i, vertices i-1, i, i+1 are one.
+InputPart curve(std::vector<Point> vertices, std::vector<std::uint32_t> middles);
+InputPart curve_ring(std::vector<Point> vertices, std::vector<std::uint32_t> middles, std::int64_t feature = 0);
 InputPart ring(std::vector<Point> vertices, std::int64_t feature = 0);
 InputPart point(double x, double y);
+
+/// The case as lines with arcs, and its zone by compute_zone of these, whether it has arcs or not.
+Result<CurveNetwork> curve_network_of(const ZoneCase& c, const Context& context = {});
+Result<Zone> curve_zone_of(const ZoneCase& c, const Context& context = {});
 
 Result<Network> network_of(const ZoneCase& c, const Context& context = {});
 Result<Zone> zone_of(const ZoneCase& c, const Context& context = {});

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <memory>
+
+#include "krepl/context.hpp"
+#include "krepl/curve_network.hpp"
+#include "krepl/error.hpp"
+#include "krepl/zone.hpp"
+
+namespace krepl {
+
+/// The zone of lines and polygons with circular arcs: all places within the radius of them, polygons filled
+/// (docs/arcs.md). Its boundary is made of segments, arcs of the radius about vertices, and arcs of r + R and r - R
+/// about the centre of an arc of radius r (Zone::Piece::from_arc).
+///
+/// As exact as compute_zone of a Network: the topology is that of an instance whose radius is 2^-48 S (or 4 units in
+/// the last place of the coordinates) above the given one and whose parts are moved by far less. Arcs that are less
+/// than 2^-44 S high count as their chords. Without arcs this is the same zone as compute_zone's, up to rounding and
+/// the order of pieces. Errors: radius not finite and positive, or finer than the coordinates' resolution; cancelled; a
+/// result that does not certify. Expected O(n log n); some 100 µs an element.
+Result<Zone> compute_zone(std::shared_ptr<const CurveNetwork> network, const ZoneOptions& options,
+                          const Context& context = {});
+
+}  // namespace krepl
