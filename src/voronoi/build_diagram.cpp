@@ -90,6 +90,7 @@ constexpr Rung rungs[] = {{FaceBuilder::Precision::plain, true},       {FaceBuil
                           {FaceBuilder::Precision::twofold, false},    {FaceBuilder::Precision::twofold, false},
                           {FaceBuilder::Precision::twofold, true},     {FaceBuilder::Precision::quadruple, true},
                           {FaceBuilder::Precision::widest, true}};
+constexpr int first_search = 4;  // in pairs of doubles
 constexpr int last_rung = int(std::size(rungs)) - 1;
 
 /// Does the given faces again more precisely; the new borders stand at the end. `disagreeing`: these faces among others.
@@ -163,6 +164,12 @@ class Settling {
   Status run() {
     std::vector<Index> all(borders_.count.size());
     std::iota(all.begin(), all.end(), 0);
+    // What is certainly wrong is searched for again: it may fit together with itself alone.
+    const std::vector<Index> wrong = marked([&](Index e) { return again_[e] != 0; });
+    look_.assign(rung_.size(), 0);
+    if (!wrong.empty()) do_again(wrong, {}, first_search);
+    if (context_.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
+    again_.assign(rung_.size(), 0);
     mark_disagreeing(borders_, all, context_, again_);
     for (int round = 0;; ++round) {
       const std::vector<Index> all_marked = marked([&](Index e) { return again_[e] != 0; });
@@ -205,7 +212,7 @@ class Settling {
     ++counters_.rounds;
     using Precision = FaceBuilder::Precision;
     const Precision precision = rungs[rung].precision;
-    if (precision != rungs[rung - 1].precision) {
+    if (precision != rungs[rung - 1].precision || disagreeing.empty()) {
       (precision == Precision::twofold     ? counters_.faces_in_pairs
        : precision == Precision::quadruple ? counters_.faces_in_quadruple
                                            : counters_.faces_in_widest) += faces.size();
@@ -280,6 +287,29 @@ Diagram lay_out(const Borders& borders, const Context& context) {
   return d;
 }
 
+/// Faces among too few sites that fit together cover the plane as often as they fall apart. O(links).
+std::optional<Index> find_apart(const Diagram& d, const Instance& in) {
+  std::vector<Index> parent(d.face_count());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](Index f) {
+    while (parent[f] != f) f = parent[f] = parent[parent[f]];
+    return f;
+  };
+  for (Index f = 0; f < d.face_count(); ++f) {
+    if (in.is_side(f) && (f & 1u)) parent[root(f)] = root(f ^ 1u);  // across the segment
+    for (Index i = d.begin[f]; i < d.begin[f + 1]; ++i) {
+      if (d.label[i] != none && d.label[i] < f) parent[root(f)] = root(d.label[i]);
+    }
+  }
+  Index first = none;
+  for (Index f = 0; f < d.face_count(); ++f) {
+    if (!in.is_side(f) && in.sector(in.vertex_of(f)).before == none) continue;  // has none
+    if (first == none) first = root(f);
+    if (root(f) != first) return f;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, const Context& context) {
@@ -295,6 +325,7 @@ Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, const 
   if (Status agreed = Settling(sites, boxes, context, borders, again, counters).run(); !agreed) return agreed.error();
   Diagram d = lay_out(borders, context);
   d.counters = counters;
+  if (const auto apart = find_apart(d, sites.instance())) return disagreement(sites, *apart);
   place_vertices(sites, borders, context, d);
   if (const auto wrong = validate(d, sites.instance().extent() > 0 ? sites.horizon() : 0)) {
     return Error{ErrorCode::computation, "the Voronoi diagram could not be certified: " + *wrong, "",
