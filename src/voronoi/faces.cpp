@@ -106,13 +106,12 @@ void FaceBuilder::gather(Cell& cell, std::span<const Hint> hints, Vector<double>
     return changed;
   };
   // A face that reaches far would otherwise be cut by all that lies near before it is cut by what faces it.
-  if (reach_.is_open()) {
-    boxes_.search_nearest(from, memory_, window, meets, [&](Index site) {
-      visit(site);
-      return reach_.is_open();
-    });
+  const auto& half = reach_.window().half;
+  if (reach_.is_open() || std::max(half.x, half.y) > 8 * cell.size()) {
+    boxes_.search_nearest(from, memory_, window, meets, visit);
+  } else {
+    boxes_.search_near(from, memory_, window, meets, visit);
   }
-  if (!reach_.is_empty() && !reach_.is_open()) boxes_.search_near(from, memory_, window, meets, visit);
 }
 
 SiteBoxes::Box FaceBuilder::site_box(Index site) const {
@@ -217,7 +216,6 @@ void FaceBuilder::gather_precisely(const Cell& cell, Precise& precise, Vector<do
       [&](const SiteBoxes::Box& box) { return reach_.meets(box); },
       [&](Index site) {
         if (!std::binary_search(near_.begin(), near_.end(), site) && precise.add_site(site, all_parts)) update();
-        return true;
       });
 }
 

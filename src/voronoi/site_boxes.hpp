@@ -34,7 +34,7 @@ class SiteBoxes {
   };
 
   /// Calls visit(site) for every site whose box, and the boxes above it, meet window() and pass meets(box). Both may
-  /// become narrower meanwhile. Nearest to `from` first: where little is known yet. Ends where visit() returns false.
+  /// become narrower meanwhile. Nearest to `from` first: where little is known yet.
   template <class Window, class Meets, class Visit>
   void search_nearest(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const;
   /// The same by going down the tree, nearest boxes first: where what is found will not make the window much narrower.
@@ -97,7 +97,7 @@ void SiteBoxes::search_nearest(Vector<double> from, Memory& memory, Window&& win
     const std::uint32_t level = std::uint32_t(e) >> index_bits, index = std::uint32_t(e) & ((1u << index_bits) - 1);
     if (!meets(box(level, index))) continue;  // what was found meanwhile may rule it out
     if (level == 0) {
-      if (!visit(index)) return;
+      visit(index);
       continue;
     }
     for (unsigned bits = levels_[level - 1][index].meeting(window()); bits != 0; bits &= bits - 1) {
