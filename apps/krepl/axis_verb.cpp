@@ -64,6 +64,7 @@ class AxisLines {
       output::AxisLine line;
       line.points = diagram_.points(edge, plan_.max_error, plan_.max_clearance);
       if (line.points.size() < 2 || (line.points.size() == 2 && line.points[0] == line.points[1])) continue;
+      line.control = diagram_.control_point(edge, plan_.max_clearance);
       line.kind = edge.parabolic ? "parabola" : "line";
       line.start_clearance = std::min(edge.start_clearance, plan_.max_clearance);
       line.end_clearance = std::min(edge.end_clearance, plan_.max_clearance);
@@ -108,8 +109,10 @@ int run_axis(const AxisOptions& options, Session& session) {
       c.candidates, c.faces_in_pairs, c.faces_in_quadruple, c.faces_in_320_bits, c.vertices_in_quadruple, c.links_reconciled));
 
   AxisLines lines(*diagram, *plan, options.all);
-  Status written = output::write_axis(
-      options.output, [&](const auto& take) { lines.each(take); }, plan->format, data->crs, session.context("writing"));
+  const output::AxisSource source = [&](const auto& take) { lines.each(take); };
+  Status written = plan->format.kind == output::ZoneFormat::Kind::svg
+                       ? output::write_axis_svg(options.output, source, *data->network, session.context("writing"))
+                       : output::write_axis(options.output, source, plan->format, data->crs, session.context("writing"));
   if (!written) return session.fail(out_name, written.error());
   session.summary(fmt::format("{} segments; {} edges of the {}; {:.3f} s", data->network->segments().size(),
                               lines.written(), options.all ? "Voronoi diagram" : "medial axis", total.seconds()),
@@ -127,7 +130,7 @@ void add_axis_verb(CLI::App& program, Session& session) {
                    "Vector file: any OGR format, .wkt (a geometry a line), .wkb, .gz of them, or -")
       ->required();
   verb->add_option("OUT", options->output,
-                   "Result: .gpkg .fgb .geojson .shp ... (lines with attributes), .wkt (lines), or -")
+                   "Result: .gpkg .fgb .geojson .shp ... (lines with attributes), .wkt (lines), .svg (a picture), or -")
       ->required();
   verb->add_flag("--all", options->all, "The whole Voronoi diagram: also the perpendiculars at the ends of segments");
   verb->add_option("--max-error", options->max_error,

@@ -1,38 +1,25 @@
-// Segment Voronoi diagrams: cost per segment and its growth with n, beside Boost.Polygon on the same lines in the same
-// run; then zones at many radii, beside as many runs of the covered-intervals engine.
-//
-//   voronoi_case [LARGEST_N]    (default 100000; from 10000 in steps of ten)
-//
-// The lines are bundles of x-monotone meanders that do not cross: Boost.Polygon assumes that, and wants integers of 32
-// bits.
-#include <sys/resource.h>
-
-#include <boost/polygon/point_data.hpp>
-#include <boost/polygon/segment_concept.hpp>
-#include <boost/polygon/segment_data.hpp>
-#include <boost/polygon/voronoi.hpp>
+// One segment Voronoi diagram in one process; see main() for the arguments.
+// Prints one JSON object. compare.py starts it with a time limit, chooses the cases and makes the table.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
 
-#include "krepl/voronoi.hpp"
+#include "../measure.hpp"
+#include "../zone/lines.hpp"
+#include "diagrams.hpp"
 
+namespace bench {
 namespace {
 
-using namespace krepl;
+using krepl::Point;
 
-double processor_time() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return double(usage.ru_utime.tv_sec) + 1e-6 * double(usage.ru_utime.tv_usec);
-}
-
-std::vector<std::vector<Point>> meanders(std::size_t segments) {
+/// Bundles of x-monotone meanders that do not cross, on integers: Boost.Polygon takes nothing else.
+Polylines meanders(std::size_t segments) {
   std::mt19937_64 random(20060401);
   std::uniform_real_distribution<double> unit(-1, 1);
   const std::size_t count = std::size_t(std::sqrt(double(segments)) / 4) + 1, each = segments / count;
-  std::vector<std::vector<Point>> lines(count);
+  Polylines lines(count);
   for (std::size_t i = 0; i < count; ++i) {
     double level = 0, slope = 0;
     for (std::size_t k = 0; k <= each; ++k) {
@@ -45,58 +32,85 @@ std::vector<std::vector<Point>> meanders(std::size_t segments) {
   return lines;
 }
 
-double boost_cost(const std::vector<std::vector<Point>>& lines, std::size_t segments) {
-  namespace polygon = boost::polygon;
-  std::vector<polygon::segment_data<int>> input;
-  for (const auto& line : lines) {
-    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-      input.emplace_back(polygon::point_data<int>(int(line[k].x), int(line[k].y)),
-                         polygon::point_data<int>(int(line[k + 1].x), int(line[k + 1].y)));
-    }
+/// A street grid, cut where streets meet: every crossing ties with three others.
+Polylines grid(std::size_t segments) {
+  const int blocks = int(std::sqrt(double(segments) / 2));
+  Polylines lines;
+  for (int i = 0; i <= blocks; ++i) {
+    auto& east = lines.emplace_back();
+    for (int k = 0; k <= blocks; ++k) east.push_back({100.0 * k, 100.0 * i});
+    auto& north = lines.emplace_back();
+    for (int k = 0; k <= blocks; ++k) north.push_back({100.0 * i, 100.0 * k});
   }
-  const double start = processor_time();
-  polygon::voronoi_diagram<double> diagram;
-  polygon::construct_voronoi(input.begin(), input.end(), &diagram);
-  return (processor_time() - start) * 1e6 / double(segments);
+  return lines;
 }
 
-void measure(std::size_t wanted) {
-  const auto lines = meanders(wanted);
-  Network::Builder builder;
-  for (const auto& line : lines) builder.add_line(line);
-  const auto network = std::make_shared<const Network>(std::move(std::move(builder).build().value()));
-  const std::size_t n = network->segments().size();
-  Context context;
-  context.threads = 1;
-  const double start = processor_time();
-  const auto diagram = VoronoiDiagram::build(network, context);
-  const double built = processor_time();
-  if (!diagram) {
-    std::printf("%s\n", diagram.error().text().c_str());
-    std::exit(1);
+/// Outlines of random pixels, half of all.
+Polylines pixels(std::size_t segments) {
+  const int side = int(std::sqrt(double(segments)));
+  std::mt19937_64 random(1);
+  std::vector<char> full(std::size_t(side + 2) * std::size_t(side + 2));
+  const auto at = [&](int i, int k) -> char& { return full[std::size_t(i) * std::size_t(side + 2) + std::size_t(k)]; };
+  for (int i = 1; i <= side; ++i)
+    for (int k = 1; k <= side; ++k) at(i, k) = random() % 2 != 0;
+  Polylines lines;
+  for (int i = 0; i <= side; ++i) {
+    for (int k = 0; k <= side; ++k) {
+      const double x = k, y = i;
+      if (at(i, k) != at(i + 1, k)) lines.push_back({{x, y}, {x + 1, y}});
+      if (at(i, k) != at(i, k + 1)) lines.push_back({{x, y}, {x, y + 1}});
+    }
   }
-  const double boost = boost_cost(lines, n);
-  const double krepl = (built - start) * 1e6 / double(n);
-  std::printf(
-      "n = %8zu: krepl %.2f us a segment, Boost.Polygon %.2f (%.1f times); %.1f candidates a face, %.2g of the faces "
-      "again in pairs of doubles\n",
-      n, krepl, boost, boost / krepl, double(diagram->counters().candidates) / double(diagram->face_count()),
-      double(diagram->counters().faces_in_pairs) / double(diagram->face_count()));
-  const int radii = wanted > 100000 ? 10 : 100;
-  const double before = processor_time();
-  for (int i = 1; i <= radii; ++i) diagram->zone({200.0 * i}, context).value();
-  const double between = processor_time();
-  for (int i = 1; i <= radii; ++i) compute_zone(network, {200.0 * i}, context).value();
-  const double after = processor_time();
-  std::printf(
-      "  %d radii: %.3f us a segment and radius out of the diagram, %.3f by intervals; all in all %.1f times faster\n",
-      radii, (between - before) * 1e6 / double(n) / radii, (after - between) * 1e6 / double(n) / radii,
-      (after - between) / (between - before + built - start));
+  return lines;
+}
+
+Polylines lines_of(const std::string& data, std::size_t segments) {
+  if (data == "meanders") return meanders(segments);
+  if (data == "grid") return grid(segments);
+  if (data == "pixels") return pixels(segments);
+  const auto read = read_lines(data);
+  if (!read || read->segments() == 0) return {};
+  const Lines lines = segments > 0 ? resized(*read, segments) : *read;
+  Polylines all;
+  for (std::size_t i = 0; i < lines.count(); ++i)
+    all.emplace_back(lines.points.begin() + std::ptrdiff_t(lines.begin[i]),
+                     lines.points.begin() + std::ptrdiff_t(lines.begin[i + 1]));
+  return all;
+}
+
+std::unique_ptr<Builder> make(const std::string& name, const Polylines& lines) {
+  if (name == "krepl") return make_krepl(lines);
+  if (name == "boost") return make_boost(lines);
+#ifdef KREPL_BENCH_CGAL
+  if (name == "cgal") return make_cgal(lines);
+#endif
+  return nullptr;
+}
+
+int run(const std::string& name, const std::string& data, std::size_t wanted) {
+  const Polylines lines = lines_of(data, wanted);
+  std::size_t segments = 0;
+  for (const auto& line : lines) segments += line.size() - 1;
+  if (segments == 0) return std::fprintf(stderr, "voronoi_case: no lines in %s\n", data.c_str()), 1;
+  const auto builder = make(name, lines);
+  if (!builder) return std::fprintf(stderr, "voronoi_case: this build has no engine %s\n", name.c_str()), 3;
+  const auto measured = measure([&] { return builder->run(); }, 1);
+  if (!measured) return 1;
+  std::printf("{\"segments\": %zu, \"cpu\": %.9g, \"runs\": %d, \"bytes\": %.0f%s}\n", segments, measured->cpu,
+              measured->runs, measured->bytes, builder->more().c_str());
+  return 0;
 }
 
 }  // namespace
+}  // namespace bench
 
 int main(int argc, char** argv) {
-  const std::size_t largest = argc > 1 ? std::size_t(std::atof(argv[1])) : 100000;
-  for (std::size_t n = 10000; n <= largest; n *= 10) measure(n);
+  if (argc != 4) {
+    std::fprintf(stderr, "usage: voronoi_case ENGINE DATA SEGMENTS\n"
+                         "  ENGINE    krepl, boost or cgal\n"
+                         "  DATA      meanders, grid, pixels, or a file of lines\n"
+                         "  SEGMENTS  about that many; 0 takes a file as it is\n");
+    return 2;
+  }
+  return bench::run(argv[1], argv[2], std::strtoull(argv[3], nullptr, 10));
 }

@@ -95,6 +95,10 @@ class VoronoiDiagram {
   /// stretch at either end is left out.
   std::vector<Point> points(const Edge& edge, double max_error, double max_clearance) const;
 
+  /// The control point that makes the same stretch of a parabolic edge a quadratic Bezier curve, without any deviation:
+  /// where the tangents at its ends meet. Nothing for straight edges, and where the stretch is nothing.
+  std::optional<Point> control_point(const Edge& edge, double max_clearance) const;
+
   /// Edges are the same seen from both sides, borders of faces are closed, what has no neighbour lies at the horizon.
   /// Returns what is wrong and where, or nothing.
   std::optional<std::string> validate() const;

@@ -158,7 +158,7 @@ Status write_axis(const std::string& path, const AxisSource& lines, const ZoneFo
   }
   if (format.kind != Kind::ogr) {
     return Error{ErrorCode::usage, "an axis cannot go to format " + format.name, "",
-                 "choose gpkg, fgb, wkt, geojson, shp or the name of a GDAL vector driver"};
+                 "choose gpkg, fgb, wkt, geojson, svg, shp or the name of a GDAL vector driver"};
   }
   ogr::initialise();
   Result<AtomicFile> file = AtomicFile::create(path);

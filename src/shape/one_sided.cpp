@@ -100,7 +100,7 @@ class Outline {
     const Item& item = items_[i];
     if (item.kind != Item::Kind::link) return false;
     const Index other = d_.label[item.link];
-    return other < Diagram::base && wanted_[other];
+    return other < voronoi::site_itself && wanted_[other];
   }
   Point site_start(Index face) const {
     return in_.vertices()[in_.is_side(face) ? in_.ends(face).from : in_.vertex_of(face)];

@@ -67,6 +67,14 @@ bool Bisector::clip(double most, double& from, double& to) const {
   return from != to;
 }
 
+std::optional<Point> Bisector::control_point(double max_clearance) const {
+  double from = 0, to = 0;
+  if (!parabola_ || !clip(max_clearance, from, to)) return std::nullopt;
+  // The tangents of y = (x^2 + h^2) / 2h at two places meet halfway between them.
+  const double x = (from + to) / 2, y = from * to / (2 * height_) + height_ / 2;
+  return Point{origin_.x + x * along_.x + y * up_.x, origin_.y + x * along_.y + y * up_.y};
+}
+
 std::vector<Point> Bisector::points(double max_error, double max_clearance) const {
   double from = 0, to = 0;
   if (!clip(max_clearance, from, to)) return {};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "krepl/voronoi.hpp"
@@ -15,6 +16,8 @@ class Bisector {
 
   /// Points from start to end, at most max_clearance from the sites; chords deviate by max_error at most.
   std::vector<Point> points(double max_error, double max_clearance) const;
+  /// Where the tangents at the ends of that stretch meet; nothing for straight curves.
+  std::optional<Point> control_point(double max_clearance) const;
   /// The largest distance from the curve of so many chords of equal width over all of it.
   double chord_error(std::size_t chords) const {
     const double width = (end_ - start_) / double(chords);

@@ -1,69 +1,17 @@
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <optional>
+#include <span>
 
 #include "kernel/parallel.hpp"
-#include "voronoi/glue.hpp"
+#include "voronoi/first_faces.hpp"
 
 namespace krepl::voronoi {
 namespace {
 
 constexpr std::size_t block = 1 << 11;
 constexpr int most_rounds = 64;
-
-bool has_face(const Instance& in, Index element) {
-  return in.is_side(element) || in.sector(in.vertex_of(element)).before != none;
-}
-
-/// Neighbours of a vertex's face that the faces of the sides beside it know already: those next to the common borders.
-void find_hints(const Borders& borders, const Instance& in, Index element, std::vector<Index>& hints) {
-  hints.clear();
-  const auto sector = in.sector(in.vertex_of(element));
-  if (sector.before == element) return;
-  const auto before = borders.border(sector.before), after = borders.border(sector.after);
-  for (std::size_t i = 1; i < 3; ++i) {
-    if (before.size() > i && before[before.size() - 1 - i].label != none)
-      hints.push_back(before[before.size() - 1 - i].label);
-    if (after.size() > i && after[i].label != none) hints.push_back(after[i].label);
-  }
-}
-
-/// Faces of some elements in double precision. Faces that are certainly wrong are marked.
-bool build_faces(const Sites& sites, const SiteBoxes& boxes, Index first, Index last, const Context& context,
-                 kernel::Progress& progress, Borders& borders, std::vector<char>& again, DiagramCounters& counters) {
-  const Instance& in = sites.instance();
-  struct Part {
-    std::vector<Link> links;
-    FaceCounters counters;
-    std::uint64_t faces = 0;
-  };
-  std::vector<Part> parts((last - first + block - 1) / block);
-  const bool done = kernel::parallel_blocks(context, last - first, block, [&](std::size_t from, std::size_t to) {
-    Part& part = parts[from / block];
-    FaceBuilder builder(sites, boxes);
-    std::vector<Index> hints;
-    for (Index e = first + Index(from); e < first + to && !context.cancelled(); ++e) {
-      if (!has_face(in, e)) continue;
-      const std::size_t start = part.links.size();
-      if (!in.is_side(e)) find_hints(borders, in, e, hints);
-      again[e] = !builder.build(e, hints, part.links);
-      borders.count[e] = Index(part.links.size() - start);
-      ++part.faces;
-    }
-    part.counters = builder.counters;
-    progress.add(to - from);
-  });
-  if (!done || context.cancelled()) return false;
-  Index total = Index(borders.links.size());
-  for (Index e = first; e < last; ++e) borders.first[e] = total, total += borders.count[e];
-  kernel::reserve_pages(context, borders.links, total);
-  for (Part& part : parts) {
-    borders.links.insert(borders.links.end(), part.links.begin(), part.links.end());
-    counters.candidates += part.counters.candidates;
-    counters.faces += part.faces;
-    part.links = {};
-  }
-  return true;
-}
 
 /// Marks, among the given faces, those that disagree with a neighbour, and the neighbour.
 void mark_disagreeing(const Borders& borders, const std::vector<Index>& faces, const Context& context,
@@ -77,7 +25,7 @@ void mark_disagreeing(const Borders& borders, const std::vector<Index>& faces, c
       for (Index i = borders.first[face]; i < borders.first[face] + borders.count[face]; ++i) {
         if (borders.is_sound(face, i)) continue;
         for (const Index f : {face, borders.links[i].label, borders.before(face, i), borders.after(face, i)}) {
-          if (f < Diagram::base) parts[from / block].push_back(f);
+          if (f < site_itself) parts[from / block].push_back(f);
         }
       }
     }
@@ -87,9 +35,67 @@ void mark_disagreeing(const Borders& borders, const std::vector<Index>& faces, c
   }
 }
 
-/// Does the given faces again more precisely; the new borders stand at the end.
+/// Which elements a face borders on, as far as its neighbours know: those on its border, what these say stands beside it
+/// on theirs, and what faces that disagree say.
+class Neighbours {
+ public:
+  Neighbours(const Sites& sites, const Borders& borders, std::span<const Index> disagreeing)
+      : sites_(sites), borders_(borders) {
+    for (const Index f : disagreeing) {
+      for (Index i = borders.first[f]; i < borders.first[f] + borders.count[f]; ++i) {
+        if (borders.links[i].label != none && borders.twin(f, i) == none) told_.push_back({borders.links[i].label, f, i});
+      }
+    }
+    std::sort(told_.begin(), told_.end());
+  }
+
+  void find(Index face, std::vector<Index>& labels) const {
+    labels.clear();
+    const auto add = [&](Index label) {
+      if (label < site_itself && label != face && std::find(labels.begin(), labels.end(), label) == labels.end())
+        labels.push_back(label);
+    };
+    const auto add_around = [&](Index other, Index link) {
+      add(other), add(borders_.before(other, link)), add(borders_.after(other, link));
+    };
+    if (sites_.is_side(face)) add(sites_.corner(face, 0)), add(sites_.corner(face, 1));
+    for (const Link& l : borders_.border(face)) {
+      if (l.label == none) continue;
+      add(l.label);
+      for (Index i = borders_.first[l.label]; i < borders_.first[l.label] + borders_.count[l.label]; ++i) {
+        if (borders_.links[i].label == face) add_around(l.label, i);
+      }
+    }
+    for (auto t = std::lower_bound(told_.begin(), told_.end(), Told{face, 0, 0}); t != told_.end() && t->face == face; ++t)
+      add_around(t->by, t->link);
+  }
+
+ private:
+  struct Told {
+    Index face, by, link;
+    friend auto operator<=>(const Told&, const Told&) = default;
+  };
+  const Sites& sites_;
+  const Borders& borders_;
+  std::vector<Told> told_;
+};
+
+/// How a face is done again: more and more precisely; among the elements that its neighbours tell first, several times,
+/// as they may have to be told themselves.
+struct Rung {
+  FaceBuilder::Precision precision;
+  bool searching;
+};
+constexpr Rung rungs[] = {{FaceBuilder::Precision::plain, true},       {FaceBuilder::Precision::twofold, false},
+                          {FaceBuilder::Precision::twofold, false},    {FaceBuilder::Precision::twofold, false},
+                          {FaceBuilder::Precision::twofold, true},     {FaceBuilder::Precision::quadruple, true},
+                          {FaceBuilder::Precision::widest, true}};
+constexpr int first_search = 4;  // in pairs of doubles
+constexpr int last_rung = int(std::size(rungs)) - 1;
+
+/// Does the given faces again more precisely; the new borders stand at the end. `disagreeing`: these faces among others.
 void build_again(const Sites& sites, const SiteBoxes& boxes, const std::vector<Index>& faces,
-                 FaceBuilder::Precision precision, const Context& context, Borders& borders) {
+                 std::span<const Index> disagreeing, Rung rung, const Context& context, Borders& borders) {
   constexpr std::size_t few = 8;
   struct Part {
     std::vector<Link> links;
@@ -99,12 +105,20 @@ void build_again(const Sites& sites, const SiteBoxes& boxes, const std::vector<I
   Context quiet;
   quiet.threads = context.threads;
   quiet.cancel = context.cancel;
+  std::optional<Neighbours> neighbours;
+  if (!rung.searching) neighbours.emplace(sites, borders, disagreeing);
   kernel::parallel_blocks(quiet, faces.size(), few, [&](std::size_t from, std::size_t to) {
     Part& part = parts[from / few];
     FaceBuilder builder(sites, boxes);
+    std::vector<Index> labels;
     for (std::size_t k = from; k < to; ++k) {
       const std::size_t start = part.links.size();
-      builder.build_precisely(faces[k], precision, part.links);
+      if (rung.searching) {
+        builder.build_precisely(faces[k], rung.precision, part.links);
+      } else {
+        neighbours->find(faces[k], labels);
+        builder.build_among(faces[k], labels, rung.precision, part.links);
+      }
       part.count.push_back(Index(part.links.size() - start));
     }
   });
@@ -142,7 +156,7 @@ class Settling {
         borders_(borders),
         again_(again),
         counters_(counters),
-        precise_(borders.count.size(), 0) {}
+        rung_(borders.count.size(), 0) {}
 
   /// Brings all faces to agree. Faces done more precisely are true ones of the moved instance, so they agree
   /// with each other but for links that are too short even for that; what grows from round to round is only the rim
@@ -150,25 +164,31 @@ class Settling {
   Status run() {
     std::vector<Index> all(borders_.count.size());
     std::iota(all.begin(), all.end(), 0);
+    // What is certainly wrong is searched for again: it may fit together with itself alone.
+    const std::vector<Index> wrong = marked([&](Index e) { return again_[e] != 0; });
+    look_.assign(rung_.size(), 0);
+    if (!wrong.empty()) do_again(wrong, {}, first_search);
+    if (context_.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
+    again_.assign(rung_.size(), 0);
     mark_disagreeing(borders_, all, context_, again_);
     for (int round = 0;; ++round) {
       const std::vector<Index> all_marked = marked([&](Index e) { return again_[e] != 0; });
       if (all_marked.empty()) return std::monostate{};
       if (round == most_rounds) return disagreement(sites_, all_marked[0]);
-      look_.assign(precise_.size(), 0);
+      look_.assign(rung_.size(), 0);
       for (const Index e : all_marked) look_[e] = 1;
       // The least precise first: the others may then agree.
       int rung = 0;
       std::vector<Index> faces;
-      for (; rung < int(FaceBuilder::Precision::widest) && faces.empty(); ++rung)
-        faces = marked([&](Index e) { return again_[e] && precise_[e] == rung; });
+      for (; rung < last_rung && faces.empty(); ++rung)
+        faces = marked([&](Index e) { return again_[e] && rung_[e] == rung; });
       if (faces.empty()) {
         if (!reconcile(all_marked)) return disagreement(sites_, all_marked[0]);
       } else {
-        do_again(faces, FaceBuilder::Precision(rung));
+        do_again(faces, all_marked, rung);
         if (context_.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
       }
-      again_.assign(precise_.size(), 0);
+      again_.assign(rung_.size(), 0);
       mark_disagreeing(borders_, marked([&](Index e) { return look_[e] != 0; }), context_, again_);
     }
   }
@@ -177,7 +197,7 @@ class Settling {
   template <class Test>
   std::vector<Index> marked(Test&& test) const {
     std::vector<Index> faces;
-    for (Index e = 0; e < precise_.size(); ++e) {
+    for (Index e = 0; e < rung_.size(); ++e) {
       if (test(e)) faces.push_back(e);
     }
     return faces;
@@ -188,15 +208,18 @@ class Settling {
       if (l.label != none) look_[l.label] = 1;
     }
   }
-  void do_again(const std::vector<Index>& faces, FaceBuilder::Precision precision) {
+  void do_again(const std::vector<Index>& faces, const std::vector<Index>& disagreeing, int rung) {
     ++counters_.rounds;
     using Precision = FaceBuilder::Precision;
-    (precision == Precision::twofold     ? counters_.faces_in_pairs
-     : precision == Precision::quadruple ? counters_.faces_in_quadruple
-                                         : counters_.faces_in_widest) += faces.size();
+    const Precision precision = rungs[rung].precision;
+    if (precision != rungs[rung - 1].precision || disagreeing.empty()) {
+      (precision == Precision::twofold     ? counters_.faces_in_pairs
+       : precision == Precision::quadruple ? counters_.faces_in_quadruple
+                                           : counters_.faces_in_widest) += faces.size();
+    }
     for (const Index e : faces) look_around(e);  // those that were neighbours
-    build_again(sites_, boxes_, faces, precision, context_, borders_);
-    for (const Index e : faces) look_around(e), precise_[e] = char(precision);
+    build_again(sites_, boxes_, faces, disagreeing, rungs[rung], context_, borders_);
+    for (const Index e : faces) look_around(e), rung_[e] = char(rung);
   }
   /// Links far below the accuracy statement that only one of two faces sees are given to the other too, or taken from
   /// the one: the shortest first.
@@ -234,7 +257,7 @@ class Settling {
   Borders& borders_;
   std::vector<char>& again_;
   DiagramCounters& counters_;
-  std::vector<char> precise_, look_;
+  std::vector<char> rung_, look_;
 };
 
 /// Lays the borders out face by face and finds the twins.
@@ -264,6 +287,29 @@ Diagram lay_out(const Borders& borders, const Context& context) {
   return d;
 }
 
+/// Faces among too few sites that fit together cover the plane as often as they fall apart. O(links).
+std::optional<Index> find_apart(const Diagram& d, const Instance& in) {
+  std::vector<Index> parent(d.face_count());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](Index f) {
+    while (parent[f] != f) f = parent[f] = parent[parent[f]];
+    return f;
+  };
+  for (Index f = 0; f < d.face_count(); ++f) {
+    if (in.is_side(f) && (f & 1u)) parent[root(f)] = root(f ^ 1u);  // across the segment
+    for (Index i = d.begin[f]; i < d.begin[f + 1]; ++i) {
+      if (d.label[i] != none && d.label[i] < f) parent[root(f)] = root(d.label[i]);
+    }
+  }
+  Index first = none;
+  for (Index f = 0; f < d.face_count(); ++f) {
+    if (!in.is_side(f) && in.sector(in.vertex_of(f)).before == none) continue;  // has none
+    if (first == none) first = root(f);
+    if (root(f) != first) return f;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, const Context& context) {
@@ -271,18 +317,15 @@ Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, const 
   Borders borders(sites);
   DiagramCounters counters;
   std::vector<char> again;
-  const Index n = sites.instance().element_count(), sides = sites.instance().side_count();
+  const Index n = sites.instance().element_count();
   again.assign(n, 0);
   borders.first.assign(n, 0);
   borders.count.assign(n, 0);
-  kernel::Progress progress(context, n);
-  if (!build_faces(sites, boxes, 0, sides, context, progress, borders, again, counters) ||
-      !build_faces(sites, boxes, sides, n, context, progress, borders, again, counters)) {
-    return cancelled;
-  }
+  if (!build_first_faces(sites, boxes, context, borders, again, counters)) return cancelled;
   if (Status agreed = Settling(sites, boxes, context, borders, again, counters).run(); !agreed) return agreed.error();
   Diagram d = lay_out(borders, context);
   d.counters = counters;
+  if (const auto apart = find_apart(d, sites.instance())) return disagreement(sites, *apart);
   place_vertices(sites, borders, context, d);
   if (const auto wrong = validate(d, sites.instance().extent() > 0 ? sites.horizon() : 0)) {
     return Error{ErrorCode::computation, "the Voronoi diagram could not be certified: " + *wrong, "",

@@ -11,7 +11,7 @@ namespace krepl::voronoi {
 
 /// How the faces came about. Printed by `krepl --verbose`.
 struct DiagramCounters {
-  std::uint64_t faces = 0, candidates = 0;
+  std::uint64_t faces = 0, candidates = 0, searched = 0;
   std::uint64_t faces_in_pairs = 0;         ///< done again because neighbours disagreed in double precision
   std::uint64_t faces_in_quadruple = 0;     ///< of them, done again because that did not settle it
   std::uint64_t faces_in_widest = 0;        ///< of them, done once more in 320 bits
@@ -23,8 +23,6 @@ struct DiagramCounters {
 /// The faces of all elements, put together. Links (half-edges) of face e are begin[e] .. begin[e+1), counter-clockwise,
 /// from the site's start to its end (an isolated vertex: all around).
 struct Diagram {
-  static constexpr Index base = none - 1;  // in place of a neighbour: the site itself, or a crossing of segments
-
   std::vector<Index> begin;
   std::vector<Index> label;       // the face on the other side; none: the horizon
   std::vector<Index> twin;        // the same link seen from there; none: there is none

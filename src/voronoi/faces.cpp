@@ -6,8 +6,6 @@
 namespace krepl::voronoi {
 namespace {
 
-constexpr Index neighbours = 8;  // along the Hilbert curve, on each side: where the search starts
-
 Point sum(Point base, Vector<double> offset) { return {base.x + offset.x, base.y + offset.y}; }
 
 template <class Real>
@@ -32,34 +30,80 @@ Real lowest(const VertexCurve<Real>& curve, Real begin, Real end) {
 
 }  // namespace
 
+/// Takes parts of a site into account that were not yet; returns true if the face changed.
 template <class Cell>
-void FaceBuilder::gather(Cell& cell, Index around, Vector<double> base, Vector<double> from) {
-  const Index sites = sites_.instance().site_count();
-  candidates_.clear();
-  reach_.update(cell, cell, base);
-  const auto take = [&](Index site) {
-    candidates_.push_back(site);
+bool FaceBuilder::take(Cell& cell, Index site, SiteParts parts) {
+  const auto known = std::find_if(taken_.begin(), taken_.end(), [&](const Taken& t) { return t.site == site; });
+  if (known == taken_.end()) {
+    taken_.push_back({site, parts});
     ++counters.candidates;
-    const bool changed = cell.add_site(site);
-    if (changed) reach_.update(cell, cell, base);
-    return changed;
+  } else {
+    parts &= ~known->parts;
+    known->parts |= parts;
+  }
+  return parts != 0 && cell.add_site(site, parts);
+}
+
+/// A link that a finished face has as well, between the same neighbours, lies along empty disks.
+void FaceBuilder::find_known(std::span<const Hint> hints, Index first, Index last) {
+  const std::size_t count = labels_.size();
+  known_.assign(count, 0);
+  for (std::size_t i = 0, end = 0; i < count; i = end) {
+    const Index label = labels_[i];
+    for (end = i + 1; end < count && labels_[end] == label;) ++end;  // one link in two charts
+    const Index before = i > 0 ? labels_[i - 1] : first, after = end < count ? labels_[end] : last;
+    for (const Hint& h : hints) {
+      if (h.face != label) continue;
+      const bool starts = h.before == before, stops = h.after == after;
+      if (starts) known_.joints[i] = 1;
+      if (stops) known_.joints[end] = 1;
+      if (!starts || !stops) continue;
+      std::fill(known_.arcs.begin() + std::ptrdiff_t(i), known_.arcs.begin() + std::ptrdiff_t(end), 1);
+      std::fill(known_.joints.begin() + std::ptrdiff_t(i), known_.joints.begin() + std::ptrdiff_t(end) + 1, 1);
+    }
+  }
+}
+
+template <class Cell>
+void FaceBuilder::judge(const Cell& cell, std::span<const Hint> hints, Vector<double> base) {
+  labels_.clear();
+  if constexpr (std::is_same_v<Cell, SideCell<double>>) {
+    for (const auto& arc : cell.arcs()) labels_.push_back(arc.curve.label);
+    const Index first = cell.corner(0), last = cell.corner(1);
+    find_known(hints, first == labels_.front() ? site_itself : first, last == labels_.back() ? site_itself : last);
+  } else {
+    for (int i = 0; i < cell.chart_count(); ++i) {
+      for (const auto& arc : cell.chart(i).envelope.arcs()) labels_.push_back(arc.curve.label);
+    }
+    if (cell.is_isolated()) find_known(hints, labels_.back(), labels_.front());
+    else find_known(hints, cell.sector().before, cell.sector().after);
+  }
+  reach_.update(cell, cell, base, known_);
+}
+
+template <class Cell>
+void FaceBuilder::gather(Cell& cell, std::span<const Hint> hints, Vector<double> base, Vector<double> from) {
+  taken_.clear();
+  const auto take_label = [&](Index label) {
+    return label < site_itself && take(cell, sites_.site_of(label), sites_.part_of(label));
   };
-  // Hints first, then what lies near along the Hilbert curve, if it may still matter.
-  seeds_.push_back(around);
-  for (Index k = 1; k <= neighbours; ++k) {
-    if (around + k < sites) seeds_.push_back(around + k);
-    if (around >= k) seeds_.push_back(around - k);
+  for (const Hint& h : hints) take_label(h.face), take_label(h.before), take_label(h.after);
+  if constexpr (std::is_same_v<Cell, SideCell<double>>) take_label(cell.corner(0)), take_label(cell.corner(1));
+  judge(cell, hints, base);
+  if (reach_.is_empty()) return;
+  ++counters.searched;
+  bool narrower = false;
+  for (const Index label : seeds_) {
+    if (reach_.meets(site_box(sites_.site_of(label)))) narrower = take_label(label) || narrower;
   }
-  for (std::size_t i = 0; i < seeds_.size(); ++i) {
-    const auto here = seeds_.begin() + std::ptrdiff_t(i);
-    if (std::find(seeds_.begin(), here, *here) == here && reach_.meets(site_box(*here))) take(*here);
-  }
-  const std::size_t seeds = candidates_.size();
+  if (narrower) judge(cell, hints, base);
+  if (reach_.is_empty()) return;
   const auto window = [&]() -> const SiteBoxes::Box& { return reach_.window(); };
   const auto meets = [&](const SiteBoxes::Box& box) { return reach_.meets(box); };
   const auto visit = [&](Index site) {
-    const auto end = candidates_.begin() + std::ptrdiff_t(seeds);
-    return std::find(candidates_.begin(), end, site) == end && take(site);
+    const bool changed = take(cell, site, all_parts);
+    if (changed) judge(cell, hints, base);
+    return changed;
   };
   // A face that reaches far would otherwise be cut by all that lies near before it is cut by what faces it.
   const auto& half = reach_.window().half;
@@ -76,55 +120,73 @@ SiteBoxes::Box FaceBuilder::site_box(Index site) const {
   return {{(a.x + b.x) / 2, (a.y + b.y) / 2}, {std::abs(a.x - b.x) / 2, std::abs(a.y - b.y) / 2}};
 }
 
-Index FaceBuilder::site_of(Index label) const {
-  return sites_.is_side(label) ? label >> 1 : sites_.owner(sites_.instance().vertex_of(label));
-}
-
 /// The next side that looks the same way probably has the same neighbours.
 void FaceBuilder::remember(Index element) {
   constexpr std::size_t most = 12;
   Recent& r = recent_[1];
   std::swap(recent_[0], r);
   r.normal = sites_.normal<double>(element);
-  r.sites.clear();
+  r.labels.clear();
   for (const auto& arc : side_.arcs()) {
-    const Index label = arc.curve.label;
-    if (label == none || r.sites.size() >= most) continue;
-    const Index site = site_of(label);
-    if (std::find(r.sites.begin(), r.sites.end(), site) == r.sites.end()) r.sites.push_back(site);
+    if (arc.curve.label != none && r.labels.size() < most) r.labels.push_back(arc.curve.label);
   }
 }
 
-bool FaceBuilder::find_candidates(Index element, std::span<const Index> hints) {
+bool FaceBuilder::find_candidates(Index element, std::span<const Hint> hints) {
   const Instance& in = sites_.instance();
   seeds_.clear();
-  for (const Index label : hints) seeds_.push_back(site_of(label));
   if (in.is_side(element)) {
     side_.start(element);
     const Vector<double> n = sites_.normal<double>(element);
     const Recent& r = recent_[dot(n, recent_[0].normal) > dot(n, recent_[1].normal) ? 0 : 1];
-    seeds_.insert(seeds_.end(), r.sites.begin(), r.sites.end());
+    seeds_.insert(seeds_.end(), r.labels.begin(), r.labels.end());
     const auto e = in.ends(element);
     const Point p = in.vertices()[e.from], q = in.vertices()[e.to];
-    gather(side_, element >> 1, {p.x, p.y}, {(p.x + q.x) / 2, (p.y + q.y) / 2});
+    gather(side_, hints, {p.x, p.y}, {(p.x + q.x) / 2, (p.y + q.y) / 2});
     remember(element);
     return true;
   }
   const Index v = in.vertex_of(element);
   const Point p = in.vertices()[v];
   if (!vertex_.start(v)) {
-    candidates_.clear();
-    reach_.update(vertex_, vertex_, {p.x, p.y});
+    taken_.clear();
+    judge(vertex_, hints, {p.x, p.y});
     return false;
   }
-  gather(vertex_, sites_.owner(v), {p.x, p.y}, {p.x, p.y});
+  gather(vertex_, hints, {p.x, p.y}, {p.x, p.y});
   return true;
 }
 
-bool FaceBuilder::build(Index element, std::span<const Index> hints, std::vector<Link>& out) {
+bool FaceBuilder::build(Index element, std::span<const Hint> hints, std::vector<Link>& out) {
   if (!find_candidates(element, hints)) return false;
   if (sites_.is_side(element)) return write(side_, out) && !side_.is_uncertain();
   return write(vertex_, out) && !vertex_.is_uncertain();
+}
+
+template <class Real>
+void FaceBuilder::build_with(SideCell<Real>& side, VertexCell<Real>& vertex, Index element,
+                             std::span<const Index> labels, std::vector<Link>& out) {
+  const auto add_all = [&](auto& cell) {
+    for (const Index label : labels) cell.add_site(sites_.site_of(label), sites_.part_of(label));
+  };
+  if (sites_.is_side(element)) {
+    side.start(element);
+    add_all(side);
+    write(side, out);
+  } else {
+    vertex.start(sites_.instance().vertex_of(element));
+    add_all(vertex);
+    write(vertex, out);
+  }
+}
+
+void FaceBuilder::build_among(Index element, std::span<const Index> labels, Precision precision,
+                              std::vector<Link>& out) {
+  if (precision == Precision::twofold) return build_with(twofold_side_, twofold_vertex_, element, labels, out);
+  if (precision == Precision::quadruple) return build_with(precise_side_, precise_vertex_, element, labels, out);
+  SideCell<wide> side(sites_);
+  VertexCell<wide> vertex(sites_);
+  build_with(side, vertex, element, labels, out);
 }
 
 /// The candidates that still come near, then, as double precision may have taken a site for nearer than it is, all
@@ -132,24 +194,33 @@ bool FaceBuilder::build(Index element, std::span<const Index> hints, std::vector
 template <class Cell, class Precise>
 void FaceBuilder::gather_precisely(const Cell& cell, Precise& precise, Vector<double> base) {
   near_.clear();
-  for (const Index site : candidates_) {
-    if (!reach_.meets(site_box(site))) continue;
-    near_.push_back(site);
-    precise.add_site(site);
+  for (const Taken& t : taken_) {
+    if (!reach_.meets(site_box(t.site))) continue;
+    near_.push_back(t.site);
+    precise.add_site(t.site, all_parts);
   }
   std::sort(near_.begin(), near_.end());
-  reach_.update(precise, cell, base);
+  const auto update = [&] {
+    std::size_t arcs = 0;
+    if constexpr (std::is_same_v<Cell, SideCell<double>>) {
+      arcs = precise.arcs().size();
+    } else {
+      for (int i = 0; i < precise.chart_count(); ++i) arcs += precise.chart(i).envelope.arcs().size();
+    }
+    known_.assign(arcs, 0);
+    reach_.update(precise, cell, base, known_);
+  };
+  update();
   boxes_.search_nearest(
       base, memory_, [&]() -> const SiteBoxes::Box& { return reach_.window(); },
       [&](const SiteBoxes::Box& box) { return reach_.meets(box); },
       [&](Index site) {
-        if (!std::binary_search(near_.begin(), near_.end(), site) && precise.add_site(site))
-          reach_.update(precise, cell, base);
+        if (!std::binary_search(near_.begin(), near_.end(), site) && precise.add_site(site, all_parts)) update();
       });
 }
 
 template <class Real>
-void FaceBuilder::build_with(SideCell<Real>& side, VertexCell<Real>& vertex, Index element, std::vector<Link>& out) {
+void FaceBuilder::search_with(SideCell<Real>& side, VertexCell<Real>& vertex, Index element, std::vector<Link>& out) {
   find_candidates(element, {});
   const Instance& in = sites_.instance();
   const Point base = in.vertices()[in.is_side(element) ? in.ends(element).from : in.vertex_of(element)];
@@ -165,81 +236,112 @@ void FaceBuilder::build_with(SideCell<Real>& side, VertexCell<Real>& vertex, Ind
 }
 
 void FaceBuilder::build_precisely(Index element, Precision precision, std::vector<Link>& out) {
-  if (precision == Precision::twofold) return build_with(twofold_side_, twofold_vertex_, element, out);
-  if (precision == Precision::quadruple) return build_with(precise_side_, precise_vertex_, element, out);
+  if (precision == Precision::twofold) return search_with(twofold_side_, twofold_vertex_, element, out);
+  if (precision == Precision::quadruple) return search_with(precise_side_, precise_vertex_, element, out);
   SideCell<wide> side(sites_);
   VertexCell<wide> vertex(sites_);
-  build_with(side, vertex, element, out);
+  search_with(side, vertex, element, out);
+}
+
+/// Whether a link between two clearances is none (Sites::coincidence). Near a site everything is short, so not there.
+bool FaceBuilder::is_short(double width, double first, double last) const {
+  const double least = sites_.coincidence(std::max(first, last));
+  return width <= least && std::abs(first - last) <= least && std::min(first, last) > 64 * least;
 }
 
 template <class Real>
-bool FaceBuilder::write(const SideCell<Real>& cell, std::vector<Link>& out) const {
+bool FaceBuilder::write(const SideCell<Real>& cell, std::vector<Link>& out) {
   const Instance& in = sites_.instance();
   const auto ends = cell.ends();
   const Point base = in.vertices()[ends.from];
   const auto& arcs = cell.arcs();
   const auto place = [&](Real x, double height) { return sum(base, rounded(cell.plane({x, Real(height)}))); };
-  const bool starts = in.sector(ends.from).after == cell.element(), stops = in.sector(ends.to).before == cell.element();
   const double left = double(arcs.front().curve.height(0));
-  const Index first = starts ? in.circle(ends.from) : cell.corner(0),
-              last = stops ? in.circle(ends.to) : cell.corner(1);
-  if (first == none || last == none) return false;
-  if (first != arcs.front().curve.label) out.push_back({first, left, 0, place(0, left)});
+  const Index first = cell.corner(0), last = cell.corner(1);
+  // A corner whose bisector is not seen is so blunt that the bisector is a perpendicular. Where segments are folded onto
+  // each other it is not; then the face is wrong.
+  const auto is_blunt = [&](Index corner) {
+    return !sites_.is_side(corner) || dot(sites_.normal<double>(corner), sites_.normal<double>(cell.element())) > 0;
+  };
+  const bool sound = (first == arcs.front().curve.label || is_blunt(first)) && (last == arcs.back().curve.label || is_blunt(last));
+  Index before = site_itself;
+  if (first != arcs.front().curve.label) {
+    out.push_back({first, left, 0, place(0, left)});
+    before = first;
+  }
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const auto& a = arcs[i];
-    const double height = double(a.curve.height(a.end));
-    out.push_back({a.curve.label, height, double(lowest(a.curve, a.begin, a.end)), place(a.end, height)});
+    const double height = double(a.curve.height(a.end)), width = double(a.end - a.begin);
+    const Index label = a.curve.label, after = i + 1 < arcs.size() ? arcs[i + 1].curve.label : last;
+    if (label != none && before != after && width <= sites_.coincidence(height) &&
+        is_short(width, double(a.curve.height(a.begin)), height))
+      continue;
+    out.push_back({label, height, double(lowest(a.curve, a.begin, a.end)), place(a.end, height)});
+    before = label;
     if (i + 1 == arcs.size()) continue;
     // A segment that crosses the base at a narrow angle: its far side's stretch may be too short to be seen.
     const auto& b = arcs[i + 1];
     const bool falls = height == 0, rises = b.curve.height(b.begin) == 0;
-    if (falls && (a.curve.label ^ 1u) != b.curve.label) {
+    if (falls && (label ^ 1u) != b.curve.label) {
       const double top = double(b.curve.height(b.begin));
-      out.push_back({a.curve.label ^ 1u, top, 0, place(b.begin, top)});
-    } else if (rises && (b.curve.label ^ 1u) != a.curve.label) {
+      out.push_back({label ^ 1u, top, 0, place(b.begin, top)});
+    } else if (rises && (b.curve.label ^ 1u) != label) {
       out.push_back({b.curve.label ^ 1u, 0, 0, place(b.begin, 0)});
     }
   }
   if (last != arcs.back().curve.label) out.push_back({last, 0, 0, {}});
   out.back().clearance = 0, out.back().end = in.vertices()[ends.to];
-  return true;
+  return sound;
 }
 
 template <class Real>
-bool FaceBuilder::write(const VertexCell<Real>& cell, std::vector<Link>& out) const {
+bool FaceBuilder::write(const VertexCell<Real>& cell, std::vector<Link>& out) {
   const Instance& in = sites_.instance();
   const Point base = in.vertices()[cell.vertex()];
+  const bool isolated = cell.is_isolated();
   const auto place = [&](Vector<double> u, double height) { return sum(base, height * u); };
-  if (!cell.is_isolated()) {
+  if (!isolated) {
     const auto& chart = cell.chart(0);
     const auto& arc = chart.envelope.arcs().front();
     const double height = double(arc.curve.height(arc.begin));
     out.push_back({cell.sector().before, height, 0, place(rounded(chart.direction(arc.begin)), height)});
   }
   const std::size_t first = out.size();
+  short_.clear();
   for (int k = 0; k < cell.chart_count(); ++k) {
     const auto& chart = cell.chart(k);
     const auto& arcs = chart.envelope.arcs();
     for (std::size_t i = 0; i < arcs.size(); ++i) {
-      const double height = double(arcs[i].curve.height(arcs[i].end));
-      const Link link{arcs[i].curve.label, height, double(lowest(arcs[i].curve, arcs[i].begin, arcs[i].end)),
-                      place(rounded(chart.direction(arcs[i].end)), height)};
+      const auto& a = arcs[i];
+      const double height = double(a.curve.height(a.end)), width = double(a.end - a.begin) * height;
+      const Link link{a.curve.label, height, double(lowest(a.curve, a.begin, a.end)),
+                      place(rounded(chart.direction(a.end)), height)};
+      const bool is_none = !isolated && link.label != none && width <= sites_.coincidence(height) &&
+                           is_short(width, double(a.curve.height(a.begin)), height);
       if (i == 0 && k > 0 && out.back().label == link.label) {  // goes on from the chart before
         const double minimum = std::min(out.back().minimum, link.minimum);
         out.back() = link;
         out.back().minimum = minimum;
+        short_.back() = short_.back() && is_none;
       } else {
         out.push_back(link);
+        short_.push_back(is_none);
       }
     }
   }
-  if (!cell.is_isolated()) {
+  if (!isolated) {
     out.push_back({cell.sector().after, 0, 0, base});
+    std::size_t kept = first;
+    for (std::size_t i = first; i < out.size(); ++i) {
+      const bool leave_out = i - first < short_.size() && short_[i - first] && out[kept - 1].label != out[i + 1].label;
+      if (!leave_out) out[kept++] = out[i];
+    }
+    out.resize(kept);
   } else if (out.size() - first > 1 && out.back().label == out[first].label) {  // a closed border has no start
     out[first].minimum = std::min(out[first].minimum, out.back().minimum);
     out.pop_back();
   }
-  if (out.size() - first == 1 && out[first].label == none && cell.is_isolated()) out.pop_back();  // alone in the plane
+  if (out.size() - first == 1 && out[first].label == none && isolated) out.pop_back();  // alone in the plane
   return true;
 }
 

@@ -15,14 +15,25 @@ struct Link {
   Point end{};           ///< relative to the network's origin
 };
 
+/// In place of a neighbour: the site itself, or a crossing of segments.
+inline constexpr Index site_itself = none - 1;
+
+/// What a finished face tells about the face of a neighbour: there, a link with `face` stands between `before` and
+/// `after`, and the disks along it are empty.
+struct Hint {
+  Index face, before, after;
+};
+
 /// Counts for --verbose.
 struct FaceCounters {
   std::uint64_t candidates = 0;  ///< sites looked at closely
+  std::uint64_t searched = 0;    ///< faces that the hints did not settle
 };
 
-/// Computes faces one at a time: the site's neighbours are searched in a tree, the face is the lower envelope of the
-/// bisectors. The links of a face stand in counter-clockwise order, from the perpendicular at the site's start to that
-/// at its end; an isolated vertex has a closed border.
+/// Computes faces one at a time: the face is the lower envelope of the bisectors with the site's neighbours. Those are
+/// told by the faces around it that are finished, and searched for in a tree where no such face tells. The links of a face
+/// stand in counter-clockwise order, from the perpendicular at the site's start to that at its end; an isolated vertex
+/// has a closed border.
 class FaceBuilder {
  public:
   FaceBuilder(const Sites& sites, const SiteBoxes& boxes)
@@ -36,31 +47,40 @@ class FaceBuilder {
         precise_vertex_(sites),
         reach_(0x1p-45 * sites.instance().extent()) {}
 
-  /// Appends the face of an element in double precision. Returns false if it is certainly wrong: take build_precisely.
-  /// `hints`: likely neighbours. Sides should come in order.
-  bool build(Index element, std::span<const Index> hints, std::vector<Link>& out);
+  /// Appends the face of an element in double precision. Returns false if it is certainly wrong: take build_among.
+  /// Sides should come in order.
+  bool build(Index element, std::span<const Hint> hints, std::vector<Link>& out);
   enum class Precision : char { plain = 0, twofold = 1, quadruple = 2, widest = 3 };
-  /// The same in pairs of doubles, quadruple or 320-bit precision of the moved vertices, among the sites that come near
-  /// in double precision.
+  /// The same in pairs of doubles, quadruple or 320-bit precision of the moved vertices: among the given elements only,
+  /// or among all sites that come near.
+  void build_among(Index element, std::span<const Index> labels, Precision precision, std::vector<Link>& out);
   void build_precisely(Index element, Precision precision, std::vector<Link>& out);
 
   FaceCounters counters;
 
  private:
   template <class Cell>
-  void gather(Cell& cell, Index around, Vector<double> base, Vector<double> from);
+  void gather(Cell& cell, std::span<const Hint> hints, Vector<double> base, Vector<double> from);
+  template <class Cell>
+  bool take(Cell& cell, Index site, SiteParts parts);
+  template <class Cell>
+  void judge(const Cell& cell, std::span<const Hint> hints, Vector<double> base);
+  void find_known(std::span<const Hint> hints, Index before, Index after);
   template <class Real>
-  void build_with(SideCell<Real>& side, VertexCell<Real>& vertex, Index element, std::vector<Link>& out);
+  void build_with(SideCell<Real>& side, VertexCell<Real>& vertex, Index element, std::span<const Index> labels,
+                  std::vector<Link>& out);
+  template <class Real>
+  void search_with(SideCell<Real>& side, VertexCell<Real>& vertex, Index element, std::vector<Link>& out);
   template <class Cell, class Precise>
   void gather_precisely(const Cell& cell, Precise& precise, Vector<double> base);
-  bool find_candidates(Index element, std::span<const Index> hints);
+  bool find_candidates(Index element, std::span<const Hint> hints);
   SiteBoxes::Box site_box(Index site) const;
-  Index site_of(Index label) const;
   void remember(Index element);
+  bool is_short(double width, double first, double last) const;
   template <class Real>
-  bool write(const SideCell<Real>& cell, std::vector<Link>& out) const;
+  bool write(const SideCell<Real>& cell, std::vector<Link>& out);
   template <class Real>
-  bool write(const VertexCell<Real>& cell, std::vector<Link>& out) const;
+  bool write(const VertexCell<Real>& cell, std::vector<Link>& out);
 
   const Sites& sites_;
   const SiteBoxes& boxes_;
@@ -71,11 +91,18 @@ class FaceBuilder {
   SideCell<quad> precise_side_;
   VertexCell<quad> precise_vertex_;
   Reach reach_;
+  KnownEmpty known_;
   SiteBoxes::Memory memory_;
-  std::vector<Index> candidates_, near_, seeds_;
+  struct Taken {
+    Index site;
+    SiteParts parts;
+  };
+  std::vector<Taken> taken_;
+  std::vector<Index> labels_, near_, seeds_;
+  std::vector<char> short_;
   struct Recent {
     Vector<double> normal{};
-    std::vector<Index> sites;
+    std::vector<Index> labels;
   };
   Recent recent_[2];  // around the last two sides
 };

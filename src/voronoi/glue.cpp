@@ -7,7 +7,7 @@ namespace krepl::voronoi {
 
 Index Borders::before(Index face, Index link) const {
   if (link == first[face]) {
-    if (!is_closed(face) || count[face] == 1) return Diagram::base;
+    if (!is_closed(face) || count[face] == 1) return site_itself;
     return neighbour(links[link].label, links[first[face] + count[face] - 1].label);
   }
   return neighbour(links[link].label, links[link - 1].label);
@@ -15,7 +15,7 @@ Index Borders::before(Index face, Index link) const {
 
 Index Borders::after(Index face, Index link) const {
   if (link + 1 == first[face] + count[face]) {
-    if (!is_closed(face) || count[face] == 1) return Diagram::base;
+    if (!is_closed(face) || count[face] == 1) return site_itself;
     return neighbour(links[link].label, links[first[face]].label);
   }
   return neighbour(links[link].label, links[link + 1].label);
@@ -63,17 +63,37 @@ bool Borders::remove_short(Index face, Index link, double tolerance) {
   return true;
 }
 
+Borders::Spot Borders::start(Index face, Index link) const {
+  if (link != first[face]) return end(link - 1);
+  if (is_closed(face)) return end(first[face] + count[face] - 1);
+  return {in_.vertices()[in_.is_side(face) ? in_.ends(face).from : in_.vertex_of(face)], 0};
+}
+
+bool Borders::coincide(Spot a, Spot b) const {
+  const double least = sites_.coincidence(std::max(a.clearance, b.clearance)), most = 4 * least;
+  // Beside a site all is near, and nothing told by that.
+  return std::min(a.clearance, b.clearance) > 64 * least && std::abs(a.place.x - b.place.x) <= most && std::abs(a.place.y - b.place.y) <= most &&
+         std::abs(a.clearance - b.clearance) <= most;
+}
+
 Index Borders::twin(Index face, Index link) const {
   const Index other = links[link].label;
   if (other == none) return none;
   const Index p = before(face, link), n = after(face, link);
-  Index found = none;
+  Index exact = none, near = none;
+  bool several = false;
   for (Index i = first[other]; i < first[other] + count[other]; ++i) {
-    if (links[i].label != face || before(other, i) != n || after(other, i) != p) continue;
-    if (found != none) return none;
-    found = i;
+    if (links[i].label != face) continue;
+    const bool starts = before(other, i) == n, stops = after(other, i) == p;
+    if (starts && stops) {
+      if (exact != none) return none;
+      exact = i;
+    } else if ((starts || coincide(start(other, i), end(link))) && (stops || coincide(end(i), start(face, link)))) {
+      several = near != none;
+      near = i;
+    }
   }
-  return found;
+  return exact != none ? exact : several ? none : near;
 }
 
 }  // namespace krepl::voronoi

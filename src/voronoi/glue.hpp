@@ -10,14 +10,15 @@ namespace krepl::voronoi {
 /// The borders of all faces while they are brought to agree: a face that is done again moves to the end.
 class Borders {
  public:
-  explicit Borders(const Sites& sites) : in_(sites.instance()), horizon_(sites.horizon()) {}
+  explicit Borders(const Sites& sites) : sites_(sites), in_(sites.instance()), horizon_(sites.horizon()) {}
 
   std::vector<Link> links;
   std::vector<Index> first, count;  // per face
 
   std::span<const Link> border(Index face) const { return {links.data() + first[face], count[face]}; }
-  /// The link of the other face that is the same stretch: between the same neighbours, in the opposite order. None if
-  /// there is none, or if two would do.
+  /// The link of the other face that is the same stretch: between the same neighbours, in the opposite order; at an end
+  /// where more than three faces meet, neighbours may differ and the place is the same. None if there is none, or if two
+  /// would do.
   Index twin(Index face, Index link) const;
   /// True if the link has its twin, or lies along the horizon and has no neighbour.
   bool is_sound(Index face, Index link) const {
@@ -29,17 +30,25 @@ class Borders {
   bool insert_twin(Index face, Index link, double tolerance);
   /// The reverse: leaves a link out that the other face does not see, if it is shorter than the tolerance.
   bool remove_short(Index face, Index link, double tolerance);
-  /// What stands before and after a link of a face; Diagram::base at the site itself and where segments cross.
+  /// What stands before and after a link of a face; site_itself at the site itself and where segments cross.
   Index before(Index face, Index link) const;
   Index after(Index face, Index link) const;
 
  private:
+  struct Spot {
+    Point place;
+    double clearance;
+  };
+  Spot start(Index face, Index link) const;
+  Spot end(Index link) const { return {links[link].end, links[link].clearance}; }
+  bool coincide(Spot a, Spot b) const;
   bool is_closed(Index face) const { return !in_.is_side(face) && in_.sector(in_.vertex_of(face)).before == face; }
   /// The two sides of one segment follow each other where it crosses the face's own.
   Index neighbour(Index label, Index next) const {
-    return next == (label ^ 1u) && label != none && next != none && in_.is_side(label) ? Diagram::base : next;
+    return next == (label ^ 1u) && label != none && next != none && in_.is_side(label) ? site_itself : next;
   }
 
+  const Sites& sites_;
   const Instance& in_;
   double horizon_;
 };

@@ -8,6 +8,13 @@
 
 namespace krepl::voronoi {
 
+/// Which disks about a face's border are known to be empty, as neighbouring faces have been found already: those along an
+/// arc of the border between its ends, and those where arcs meet (before the arc of the same number, and one at the end).
+struct KnownEmpty {
+  std::vector<char> arcs, joints;
+  void assign(std::size_t count, char value) { arcs.assign(count, value), joints.assign(count + 1, value); }
+};
+
 /// Which boxes may hold a site that cuts a face as found so far: those that meet one of the empty disks about the
 /// face's border. Along a bisector with a point, all disks lie in the two at its ends; along one with a line also in
 /// the strip between the line's places that these two touch. Told a little too often (by 1e-9 of the disk and `slack`),
@@ -16,13 +23,16 @@ class Reach {
  public:
   /// `slack`: by how much boxes are widened, so that what only the move of vertices brings near is seen.
   explicit Reach(double slack) : slack_(slack) {}
-  /// `frame`: the same cell in double precision.
+  /// `frame`: the same cell in double precision. Disks known to be empty are left out.
   template <class Real>
-  void update(const SideCell<Real>& cell, const SideCell<double>& frame, Vector<double> base);
+  void update(const SideCell<Real>& cell, const SideCell<double>& frame, Vector<double> base, const KnownEmpty& known);
   template <class Real>
-  void update(const VertexCell<Real>& cell, const VertexCell<double>& frame, Vector<double> base);
+  void update(const VertexCell<Real>& cell, const VertexCell<double>& frame, Vector<double> base,
+              const KnownEmpty& known);
 
   bool meets(const SiteBoxes::Box& box) const;
+  /// True if nothing can meet it.
+  bool is_empty() const { return disks_.empty() && strips_.empty() && sectors_.empty(); }
   /// True if the face still reaches the horizon.
   bool is_open() const { return open_; }
   /// A box around all empty disks.

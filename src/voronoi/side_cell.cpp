@@ -10,7 +10,6 @@ void SideCell<Real>::start(Index element) {
   u_ = (element & 1u) ? Vector<Real>{-d.x, -d.y} : d;
   length_ = zone::length(sites_.template difference<Real>(ends_.to, ends_.from));
   uncertain_ = false;
-  corner_[0] = corner_[1] = Curve();
   Curve horizon;
   horizon.is_line = true;
   horizon.at = {0, Real(sites_.horizon())};
@@ -18,14 +17,14 @@ void SideCell<Real>::start(Index element) {
 }
 
 template <class Real>
-bool SideCell<Real>::add_site(Index site) {
+bool SideCell<Real>::add_site(Index site, SiteParts parts) {
   changed_ = false;
   const auto s = sites_.instance().site(site);
   if (s.a == s.b) {
     look_at(locate(s.a));
     add_vertex(s.a, locate(s.a));
   } else if (!is_own(site)) {
-    add_segment(site);
+    add_segment(site, parts);
   }
   return changed_;
 }
@@ -87,50 +86,58 @@ void SideCell<Real>::add_incident(Curve line, bool at_end, Vector<Real> other, V
   if (!(at_end ? n.x < 0 : n.x > 0)) return;
   const Real limit = touching(other, n).x;
   line.label += at_end == reversed ? 1 : 0;
-  Curve& nearest = corner_[at_end ? 1 : 0];
-  const Real slope = kernel::absolute(n.x / one_minus_y(n));
-  if (nearest.label == none || slope < nearest.slope) nearest.label = line.label, nearest.slope = slope;
   add_line(line, n, corner, corner, at_end ? limit : Real(0), at_end ? length_ : limit);
 }
 
 template <class Real>
-void SideCell<Real>::add_segment(Index segment) {
+void SideCell<Real>::add_segment(Index segment, SiteParts parts) {
   const auto s = sites_.instance().site(segment);
   const Vector<Real> a = locate(s.a), b = locate(s.b);
   if (s.a != ends_.from && s.a != ends_.to) look_at(a);
   if (s.b != ends_.from && s.b != ends_.to) look_at(b);
   if (!(a.y > 0) && !(b.y > 0)) return;
+  if (parts & both_sides) add_sides(segment, parts, a, b);
+  if ((parts & start_vertex) && sites_.owner(s.a) == segment) add_vertex(s.a, a);
+  if ((parts & end_vertex) && sites_.owner(s.b) == segment) add_vertex(s.b, b);
+}
+
+template <class Real>
+void SideCell<Real>::add_sides(Index segment, SiteParts parts, Vector<Real> a, Vector<Real> b) {
+  const auto s = sites_.instance().site(segment);
   Vector<Real> d = rotate(sites_.direction<Real>(segment));
   Curve line;
   line.label = 2 * segment;
   line.is_line = true;
   line.ends[0] = s.a, line.ends[1] = s.b;
   line.places[0] = a, line.places[1] = b;
-  const bool a_own = s.a == ends_.from || s.a == ends_.to, b_own = s.b == ends_.from || s.b == ends_.to;
-  if (a_own) {
+  if (s.a == ends_.from || s.a == ends_.to) {
     add_incident(line, s.a == ends_.to, b, d, false);
-  } else if (b_own) {
-    add_incident(line, s.b == ends_.to, a, {-d.x, -d.y}, true);
-  } else {
-    const bool reversed = b.y < a.y;  // the lower end first, so that d points upwards
-    const Vector<Real> p = reversed ? b : a, q = reversed ? a : b;
-    if (reversed) d = {-d.x, -d.y};
-    const Vector<Real> left{-d.y, d.x}, right{d.y, -d.x};
-    Curve left_line = line, right_line = line;
-    (reversed ? left_line : right_line).label += 1;
-    const Real far_left = touching(q, left).x, far_right = touching(q, right).x;
-    if (p.y > 0) {
-      const Vector<Real> near_left = touching(p, left), near_right = touching(p, right);
-      add_line(left_line, left, p, near_left, far_left, near_left.x);
-      add_line(right_line, right, p, near_right, near_right.x, far_right);
-    } else {  // it crosses the base's line
-      const Vector<Real> crossing{p.x - p.y * (q.x - p.x) / (q.y - p.y), Real(0)};
-      add_line(left_line, left, crossing, crossing, far_left, crossing.x);
-      add_line(right_line, right, crossing, crossing, crossing.x, far_right);
-    }
+    return;
   }
-  if (sites_.owner(s.a) == segment) add_vertex(s.a, a);
-  if (sites_.owner(s.b) == segment) add_vertex(s.b, b);
+  if (s.b == ends_.from || s.b == ends_.to) {
+    add_incident(line, s.b == ends_.to, a, {-d.x, -d.y}, true);
+    return;
+  }
+  const bool reversed = b.y < a.y;  // the lower end first, so that d points upwards
+  const Vector<Real> p = reversed ? b : a, q = reversed ? a : b;
+  if (reversed) d = {-d.x, -d.y};
+  const bool crosses = !(p.y > 0);  // the base's line
+  const Vector<Real> crossing = crosses ? Vector<Real>{p.x - p.y * (q.x - p.x) / (q.y - p.y), Real(0)} : Vector<Real>{};
+  // The frame is a reflection: the side on the right of the segment is on the left here.
+  if (parts & (reversed ? second_side : first_side)) {
+    const Vector<Real> left{-d.y, d.x};
+    const Vector<Real> near = crosses ? crossing : touching(p, left);
+    Curve left_line = line;
+    left_line.label += reversed ? 1 : 0;
+    add_line(left_line, left, crosses ? crossing : p, near, touching(q, left).x, near.x);
+  }
+  if (parts & (reversed ? first_side : second_side)) {
+    const Vector<Real> right{d.y, -d.x};
+    const Vector<Real> near = crosses ? crossing : touching(p, right);
+    Curve right_line = line;
+    right_line.label += reversed ? 0 : 1;
+    add_line(right_line, right, crosses ? crossing : p, near, near.x, touching(q, right).x);
+  }
 }
 
 template class SideCell<double>;

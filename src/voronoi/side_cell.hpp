@@ -132,9 +132,9 @@ class SideCell {
 
   explicit SideCell(const Sites& sites) : sites_(sites) {}
   void start(Index element);
-  /// Takes a site (a segment with the vertices it brings along, or an isolated vertex) into account; returns true if
-  /// the face changed.
-  bool add_site(Index site);
+  /// Takes parts of a site (a segment with the vertices it brings along, or an isolated vertex) into account; returns
+  /// true if the face changed.
+  bool add_site(Index site, SiteParts parts);
 
   Index element() const { return element_; }
   Real length() const { return length_; }
@@ -145,9 +145,8 @@ class SideCell {
   /// True if double precision cannot tell on which side of the base a site lies that matters; neighbours might not
   /// notice.
   bool is_uncertain() const { return uncertain_; }
-  /// The other side at the concave corner at the start (0) or end (1): with it the border begins or ends, in the corner
-  /// itself, even if that stretch is too short to be seen. None if there is no corner.
-  Index corner(int end) const { return corner_[end].label; }
+  /// What the border begins (0) or ends (1) with, even if that stretch is too short to be seen.
+  Index corner(int end) const { return sites_.corner(element_, end); }
   /// A vertex in the side's frame.
   Vector<Real> locate(Index vertex) const { return rotate(sites_.template difference<Real>(vertex, ends_.from)); }
   Vector<Real> rotate(Vector<Real> v) const { return {dot(v, u_), v.x * u_.y - v.y * u_.x}; }
@@ -164,7 +163,8 @@ class SideCell {
   }
   void look_at(Vector<Real> q);
   void add_vertex(Index vertex, Vector<Real> q);
-  void add_segment(Index segment);
+  void add_segment(Index segment, SiteParts parts);
+  void add_sides(Index segment, SiteParts parts, Vector<Real> a, Vector<Real> b);
   void add_incident(Curve line, bool at_end, Vector<Real> other, Vector<Real> away, bool reversed);
   void add_line(Curve line, Vector<Real> normal, Vector<Real> anchor, Vector<Real> place, Real low, Real high);
 
@@ -174,7 +174,6 @@ class SideCell {
   Vector<Real> u_{};
   Real length_ = 0;
   bool changed_ = false, uncertain_ = false;
-  Curve corner_[2];
   Envelope<Real, Curve> envelope_;
 };
 

@@ -81,7 +81,7 @@ bool VertexCell<Real>::start(Index vertex) {
 }
 
 template <class Real>
-bool VertexCell<Real>::add_site(Index site) {
+bool VertexCell<Real>::add_site(Index site, SiteParts parts) {
   changed_ = false;
   const auto s = sites_.instance().site(site);
   const Vector<Real> a = locate(s.a), b = locate(s.b);
@@ -90,10 +90,10 @@ bool VertexCell<Real>::add_site(Index site) {
       add_vertex(s.a, a);
       return changed_;
     }
-    add_line(site, a, b);
+    if (parts & both_sides) add_line(site, a, b);
   }
-  if (s.a != vertex_ && sites_.owner(s.a) == site) add_vertex(s.a, a);
-  if (s.b != vertex_ && sites_.owner(s.b) == site) add_vertex(s.b, b);
+  if ((parts & start_vertex) && s.a != vertex_ && sites_.owner(s.a) == site) add_vertex(s.a, a);
+  if ((parts & end_vertex) && s.b != vertex_ && sites_.owner(s.b) == site) add_vertex(s.b, b);
   return changed_;
 }
 

@@ -108,7 +108,7 @@ class VertexCell {
   /// Precondition: the vertex has a face. Returns false if the sector is too thin for Real.
   bool start(Index vertex);
   /// Returns true if the face changed.
-  bool add_site(Index site);
+  bool add_site(Index site, SiteParts parts);
 
   Index vertex() const { return vertex_; }
   /// True if double precision cannot tell on which side of a segment that matters the vertex lies; neighbours might not

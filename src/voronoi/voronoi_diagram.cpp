@@ -170,6 +170,14 @@ std::vector<Point> VoronoiDiagram::points(const Edge& edge, double max_error, do
   return points;
 }
 
+std::optional<Point> VoronoiDiagram::control_point(const Edge& edge, double max_clearance) const {
+  const Point o = network().origin();
+  const voronoi::Bisector bisector(network(), edge, {edge.start.x - o.x, edge.start.y - o.y},
+                                   {edge.end.x - o.x, edge.end.y - o.y});
+  const std::optional<Point> p = bisector.control_point(max_clearance);
+  return p ? std::optional(Point{p->x + o.x, p->y + o.y}) : std::nullopt;
+}
+
 std::optional<std::string> VoronoiDiagram::validate() const {
   return voronoi::validate(parts_->diagram, network().extent() > 0 ? horizon() : 0);
 }

@@ -1,6 +1,8 @@
 """krepl axis: edges, clearances and formats, by shapes whose axis is known; krepl buffer by the same diagram."""
 import json
 import math
+import re
+import xml.etree.ElementTree as ElementTree
 
 import support
 from support import measure
@@ -46,8 +48,25 @@ class Axis(support.CliTest):
         self.succeed("axis", "in.wkt", "out.shp")
         text = self.succeed("axis", "in.wkt", "-").stdout
         self.assertTrue(all(line.startswith("LINESTRING (") for line in text.splitlines()))
-        self.fail_with(2, "out.svg: an axis cannot go to format svg; choose gpkg, fgb, wkt, geojson, shp or the name of a GDAL vector driver",
-                       "axis", "in.wkt", "out.svg", output="out.svg")
+        self.fail_with(2, "out.dxf: an axis cannot go to format dxf; choose gpkg, fgb, wkt, geojson, svg, shp or the name of a GDAL vector driver",
+                       "axis", "in.wkt", "out.dxf", output="out.dxf")
+
+    def test_svg_has_true_parabolas(self):
+        """y = (x^2 + 16) / 8: every point of the Bezier curve lies on it, and y points down."""
+        done = self.succeed("axis", "-", "-", "--format", "svg", "--max-clearance", 6, stdin="LINESTRING (-10 0, 10 0)\nPOINT (0 4)")
+        root = ElementTree.fromstring(done.stdout)
+        ox, oy = map(float, root.get("data-origin").split())
+        found = [p for p in root if p.get("class") == "parabola"]
+        self.assertTrue(found)
+        for path in found:
+            numbers = list(map(float, re.findall(r"[-+0-9.e]+", path.get("d"))))
+            self.assertEqual(len(numbers), 6)
+            points = [(x + ox, oy - y) for x, y in zip(numbers[::2], numbers[1::2])]
+            for i in range(11):
+                t = i / 10
+                x, y = (sum(w * p[k] for w, p in zip(((1 - t) ** 2, 2 * t * (1 - t), t * t), points)) for k in (0, 1))
+                self.assertAlmostEqual(y, (x * x + 16) / 8, places=9)
+        self.assertEqual(len([p for p in root if p.get("class") == "input"]), 2)
 
     def test_the_same_bytes_for_any_number_of_threads(self):
         self.write("in.wkt", "".join(f"LINESTRING ({i} {i * i % 17}, {i + 3} {i * 7 % 13})\n" for i in range(200)))

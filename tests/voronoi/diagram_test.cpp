@@ -139,6 +139,57 @@ TEST(VoronoiDiagram, StreetGridWithCocircularSites) {
   expect_sound(c);
 }
 
+TEST(VoronoiDiagram, TiesAreOneVertexAndNeedNoPrecision) {
+  ZoneCase c;  // blocks cut where streets meet, with a vertex in the middle of each side
+  for (int i = 0; i < 4; ++i) {
+    std::vector<Point> east, north;
+    for (int k = 0; k <= 6; ++k) east.push_back({5.0 * k, 10.0 * i}), north.push_back({10.0 * i, 5.0 * k});
+    c.parts.push_back(line(east)), c.parts.push_back(line(north));
+  }
+  expect_sound(c);
+  const auto diagram = VoronoiDiagram::build(shared(c));
+  EXPECT_EQ(diagram->counters().faces_in_pairs, 0u);
+  // Inside each of the nine blocks eight edges meet in the middle: from the corners, and from the middles of the sides. Of
+  // these, one that is the face of a vertex has two sides.
+  int half_edges = 0;
+  for (const auto& edge : diagram->edges()) {
+    const Point p = edge.start_clearance > edge.end_clearance ? edge.start : edge.end;
+    const bool inside = p.x > 0 && p.x < 30 && p.y > 0 && p.y < 30;
+    if (inside && std::max(edge.start_clearance, edge.end_clearance) == 5) half_edges += edge.touches_site ? 1 : 2;
+  }
+  EXPECT_EQ(half_edges, 2 * 9 * 8);
+}
+
+TEST(VoronoiDiagram, FoldedSegmentsAtOneVertex) {
+  for (const double length : {0.00390625, 0.5, 1.0 / 3}) {
+    const ZoneCase c{{line({{0, 0}, {1, 0}}), line({{length, 0}, {0, 0}})}};
+    expect_sound(c);
+    const auto network = shared(c);
+    const auto zone = VoronoiDiagram::build(network)->zone({0.125});
+    ASSERT_TRUE(zone.ok()) << zone.error().text();
+    EXPECT_EQ(zone->ring_count(), 1u);
+    EXPECT_NEAR(zone->area(), 0.25 + M_PI / 64, 1e-12);
+  }
+}
+
+TEST(VoronoiDiagram, ControlPointsMakeParabolasExact) {
+  const auto diagram = VoronoiDiagram::build(shared({{line({{-10, 1}, {10, 1}}), point(0, 5)}}));
+  int parabolas = 0;
+  for (const auto& edge : diagram->edges()) {
+    const auto control = diagram->control_point(edge, 20);
+    EXPECT_EQ(control.has_value(), edge.parabolic);
+    if (!control) continue;
+    ++parabolas;
+    const auto ends = diagram->points(edge, 1e9, 20);
+    for (const double t : {0.0, 0.3, 0.5, 0.9, 1.0}) {
+      const double u = (1 - t) * (1 - t), v = 2 * t * (1 - t), w = t * t;
+      const double x = u * ends.front().x + v * control->x + w * ends.back().x;
+      EXPECT_NEAR(u * ends.front().y + v * control->y + w * ends.back().y, (x * x + 16) / 8 + 1, 1e-12);
+    }
+  }
+  EXPECT_GT(parabolas, 0);
+}
+
 TEST(VoronoiDiagram, RandomSegmentsThatCross) {
   std::mt19937_64 random(seed());
   std::uniform_real_distribution<double> place(-100, 100), shift(-15, 15);
