@@ -1,0 +1,47 @@
+#include "mill/rest_area.hpp"
+
+#include "kernel/parallel.hpp"
+#include "kernel/vectors.hpp"
+#include "mill/on_surface.hpp"
+
+namespace krepl::mill {
+
+using namespace vectors;
+
+namespace {
+
+constexpr int most_rounds = 12;
+
+/// Whether a free place of the larger ball is within `radius` of x; looked for from c on.
+bool is_reached(const DropCutter& larger, const OnSurface& surface, Point3 x, Point3 c, double radius) {
+  for (int k = 0; k < most_rounds; ++k) {
+    const DropCutter::Contact contact = larger.at({c.x, c.y});
+    if (!contact.touches() || contact.height <= c.z) return true;
+    c = surface.put(c);
+    if (distance(c, x) <= radius) return true;
+    c = x + (radius / distance(c, x)) * (c - x);
+  }
+  return false;
+}
+
+}  // namespace
+
+bool find_rest(const SurfaceGrid& grid, const DropCutter& cutter, const RestOf& o, const Context& context,
+               std::vector<char>& rest) {
+  rest.assign(grid.size(), 0);
+  const Result<DropCutter> larger = cutter.with_radius(o.radius + o.allowance);
+  if (!larger) return false;
+  const double slack = o.threshold / 64;
+  const OnSurface surface(*larger, slack, slack);
+  return kernel::parallel_blocks(context, grid.size(), 4096, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) {
+      const auto place = SurfaceGrid::Index(v);
+      if (!grid.touches(place)) continue;
+      const Point3 n = grid.normal(place), q = grid.centre(place) - cutter.radius() * n;
+      const Point3 x = q + (o.allowance + o.threshold) * n;
+      rest[v] = !is_reached(*larger, surface, x, q + (o.allowance + o.radius) * n, o.radius - slack / 8);
+    }
+  });
+}
+
+}  // namespace krepl::mill
