@@ -15,8 +15,9 @@ using namespace vectors;
 namespace {
 
 constexpr double root3 = 1.7320508075688772;
-constexpr int most_levels = 7;       // of halving a tile
+constexpr int most_levels = 8;       // of halving a tile
 constexpr double rounding = 1e-12;   // of squared distances, relative
+constexpr double smallest = 0.01;    // half a cube's diagonal or so, of half the distance of passes on a plane
 constexpr double widest_cone = 1.4;  // radians: beyond it directions between those of two touched places are left to subdivision
 
 Point3 nearest_on_segment(Point3 p, Point3 a, Point3 b) {
@@ -141,15 +142,19 @@ class CoverTile {
       const std::uint32_t t = above == nullptr ? std::uint32_t(n) : above->triangles[n];
       const Point3 q = nearest_on_triangle(c, triangles_[t]), way = c - q;
       const double away = length(way);
-      if (away > contact_ + e) continue;
-      level.triangles.push_back(t);
       if (away < contact_ - e) return false;
-      if (way.z < -1.01 * e) continue;  // touched from below
-      const Point3 normal = (1 / away) * way;
-      level.touched.push_back(t), level.place.push_back(q), level.normal.push_back(normal);
-      level.limit.push_back(q + lift_ * normal);
-      level.angle.push_back(std::asin(std::min(1.0, e / away))), level.away.push_back(away);
+      if (away > contact_ + e) continue;
+      level.triangles.push_back(t), level.place.push_back(q), level.away.push_back(away);
+      level.normal.push_back((1 / away) * way), level.angle.push_back(std::asin(std::min(1.0, e / away)));
     }
+    drop_farther(e, level);
+    level.touched.resize(level.triangles.size());
+    for (std::size_t n = 0; n < level.touched.size(); ++n) {
+      level.touched[n] = level.triangles[n];
+      level.limit.push_back(level.place[n] + lift_ * level.normal[n]);
+    }
+    // What is touched from below does not count, but hides others.
+    drop_if(level, [&](std::size_t n) { return level.away[n] * level.normal[n].z < -1.01 * e; });
     if (level.touched.empty()) return false;
     const double far = 3 * p_.reach_ + e;
     const std::size_t pieces = above == nullptr ? near_.size() : above->pieces.size();
@@ -161,12 +166,29 @@ class CoverTile {
     return true;
   }
 
-  /// Beside the part: what is vertical, or has the part above it.
-  bool drop_walls(Level& level, double e) const {
+  /// Drops triangles to which no c of the cube is as near as to that which is nearest to the middle. The distance from a triangle
+  /// changes along m, so the difference of two changes no faster than the difference of their m.
+  void drop_farther(double e, Level& level) const {
+    if (level.triangles.size() < 2) return;
+    const std::size_t best = std::size_t(std::min_element(level.away.begin(), level.away.end()) - level.away.begin());
+    const Point3 normal = level.normal[best];
+    const double away = level.away[best], angle = level.angle[best];
+    std::size_t kept = 0;
+    for (std::size_t n = 0; n < level.triangles.size(); ++n) {
+      if (level.away[n] - away > e * (distance(level.normal[n], normal) + level.angle[n] + angle)) continue;
+      level.triangles[kept] = level.triangles[n], level.place[kept] = level.place[n], level.normal[kept] = level.normal[n];
+      level.angle[kept] = level.angle[n], level.away[kept] = level.away[n];
+      ++kept;
+    }
+    level.triangles.resize(kept), level.place.resize(kept), level.normal.resize(kept), level.angle.resize(kept),
+        level.away.resize(kept);
+  }
+
+  template <class Drop>
+  static bool drop_if(Level& level, const Drop& drop) {
     std::size_t kept = 0;
     for (std::size_t n = 0; n < level.touched.size(); ++n) {
-      const Point3 q = level.place[n];
-      if (triangles_[level.touched[n]].vertical || p_.needle_.at({q.x, q.y}).height > q.z + e) continue;
+      if (drop(n)) continue;
       level.touched[kept] = level.touched[n], level.place[kept] = level.place[n], level.normal[kept] = level.normal[n];
       level.limit[kept] = level.limit[n], level.angle[kept] = level.angle[n], level.away[kept] = level.away[n];
       ++kept;
@@ -175,6 +197,14 @@ class CoverTile {
     level.touched.resize(kept), level.place.resize(kept), level.normal.resize(kept), level.limit.resize(kept);
     level.angle.resize(kept), level.away.resize(kept);
     return dropped;
+  }
+
+  /// Beside the part: what is vertical, or has the part above it.
+  bool drop_walls(Level& level, double e) const {
+    return drop_if(level, [&](std::size_t n) {
+      const Point3 q = level.place[n];
+      return triangles_[level.touched[n]].vertical || p_.needle_.at({q.x, q.y}).height > q.z + e;
+    });
   }
 
   bool proven(Point3 c, double e, const Level& level) const {
@@ -230,8 +260,7 @@ CoverProof::CoverProof(const DropCutter& cutter, const CoverOptions& options) : 
   const double core = o_.radius - o_.height, contact = o_.radius + o_.allowance;
   reach_ = std::sqrt(o_.radius * o_.radius - core * core);
   side_ = std::min(4 * reach_, contact / 2);
-  // Smallest cubes of a fiftieth of the reach.
-  levels_ = std::clamp(int(std::ceil(std::log2(side_ / (0.02 * reach_)))), 1, most_levels + 1);
+  levels_ = std::clamp(int(std::ceil(std::log2(side_ / (2 * smallest * reach_)))), 1, most_levels);
   for (int k = 0; k <= levels_; ++k) {
     const double e = std::ldexp(side_ * root3 / 2, -k);
     for (const bool more : {false, true})

@@ -17,9 +17,10 @@ constexpr int deepest = 12;
 
 }  // namespace
 
-/// What a ball over p touches is no farther than the ball reaches: a ball as large as that distance touches something nearer,
-/// or nothing else.
+/// What a ball over p touches bounds the distance of p. A ball a bit smaller than that either rests at p or below: then nothing is
+/// nearer; or it rests higher, on something that is nearer.
 OnSurface::Nearest OnSurface::nearest(Point3 p) const {
+  constexpr double a_bit = 1e-9;
   double radius = cutter_.radius();
   Nearest best{0, {}, false};
   for (int k = 0; k < most_steps; ++k) {
@@ -31,13 +32,13 @@ OnSurface::Nearest OnSurface::nearest(Point3 p) const {
       radius *= 2;
       continue;
     }
+    if (best.found && contact.height <= p.z) return best;
     // All below what is touched is solid.
     const Point3 touched{contact.point.x, contact.point.y, std::min(contact.point.z, p.z)};
     const double away = distance(p, touched);
-    const bool is_nearer = !best.found || away < best.distance;
-    if (is_nearer) best = {away, touched, true};
-    if (std::abs(contact.height - p.z) <= 1e-9 * cutter_.radius() || !is_nearer || away <= 1e-3 * cutter_.radius()) break;
-    radius = away;
+    if (!best.found || away < best.distance) best = {away, touched, true};
+    radius = (1 - a_bit) * best.distance;
+    if (radius <= 1e-3 * cutter_.radius()) return best;
   }
   return best;
 }

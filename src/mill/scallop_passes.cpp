@@ -29,7 +29,7 @@ using Index = SurfaceGrid::Index;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_places = 0x1p24;
-constexpr double part_of_reach = 0.87;  // half the distance of passes, of what a plane allows
+constexpr double part_of_reach = 0.9;  // half the distance of passes, of what a plane allows
 constexpr int halvings = 6;
 
 Error cancelled() { return {ErrorCode::cancelled, "cancelled", "", ""}; }
