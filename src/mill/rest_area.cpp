@@ -11,15 +11,20 @@ using namespace vectors;
 namespace {
 
 constexpr int most_rounds = 12;
+constexpr double least_gain = 0.75;  // of a round: what remains of the distance too far
 
 /// Whether a free place of the larger ball is within `radius` of x; looked for from c on.
 bool is_reached(const DropCutter& larger, const OnSurface& surface, Point3 x, Point3 c, double radius) {
+  double excess = 1e300;
   for (int k = 0; k < most_rounds; ++k) {
     const DropCutter::Contact contact = larger.at({c.x, c.y});
     if (!contact.touches() || contact.height <= c.z) return true;
     c = surface.put(c);
-    if (distance(c, x) <= radius) return true;
-    c = x + (radius / distance(c, x)) * (c - x);
+    const double away = distance(c, x);
+    if (away <= radius) return true;
+    if (away - radius > least_gain * excess) return false;
+    excess = away - radius;
+    c = x + (radius / away) * (c - x);
   }
   return false;
 }
@@ -31,7 +36,7 @@ bool find_rest(const SurfaceGrid& grid, const DropCutter& cutter, const RestOf& 
   rest.assign(grid.size(), 0);
   const Result<DropCutter> larger = cutter.with_radius(o.radius + o.allowance);
   if (!larger) return false;
-  const double slack = o.threshold / 64;
+  const double slack = o.threshold / 8;
   const OnSurface surface(*larger, slack, slack);
   return kernel::parallel_blocks(context, grid.size(), 4096, [&](std::size_t first, std::size_t last) {
     for (std::size_t v = first; v < last; ++v) {
