@@ -56,7 +56,7 @@ Point3 nearest_on_triangle(Point3 p, const Triangle& t) {
 /// One tile of a proof: cubes, and for each size the triangles and pieces of the path that are near.
 class CoverTile {
  public:
-  CoverTile(const CoverProof& proof, const std::function<bool(Point3)>& is_of_interest)
+  CoverTile(const CoverProof& proof, const std::function<bool(Point3, double)>& is_of_interest)
       : p_(proof), interest_(is_of_interest), o_(proof.o_), levels_(std::size_t(proof.levels_ + 1)) {
     contact_ = o_.radius + o_.allowance;
     lift_ = o_.allowance + o_.height;
@@ -121,8 +121,9 @@ class CoverTile {
     if (!below.touches() && drop_walls(level, e)) {
       if (level.touched.empty() || proven(c, e, level)) return;
     }
+    if (interest_ && !interest_(c, depth == p_.levels_ ? 0 : side / 2)) return;
     if (depth == p_.levels_) {
-      if (!interest_ || interest_(c)) open_->push_back(c);
+      open_->push_back(c);
       return;
     }
     for (int k = 0; k < 8; ++k)
@@ -246,7 +247,7 @@ class CoverTile {
   }
 
   const CoverProof& p_;
-  const std::function<bool(Point3)>& interest_;
+  const std::function<bool(Point3, double)>& interest_;
   const CoverOptions& o_;
   double contact_, lift_, room_, lowest_ = 0;
   std::vector<Level> levels_;
@@ -327,7 +328,7 @@ void CoverProof::sort_pieces() {
   sorted_ = pieces_.size();
 }
 
-bool CoverProof::run(const std::vector<std::size_t>& tiles, const std::function<bool(Point3)>& is_of_interest,
+bool CoverProof::run(const std::vector<std::size_t>& tiles, const std::function<bool(Point3, double)>& is_of_interest,
                      const Context& context, std::vector<Point3>& open, std::vector<std::size_t>& open_tiles) {
   sort_pieces();
   std::vector<std::vector<Point3>> found(tiles.size());

@@ -46,9 +46,9 @@ class CoverProof {
 
   std::size_t tile_count() const { return columns_ * rows_; }
   /// Looks at tiles; `open` becomes the middles of the smallest cubes, tile by tile, that are not proven, relative to the
-  /// part's origin; `open_tiles` the tiles that have some. `is_of_interest`: cubes of which the middle's place is none are left
-  /// out; may be empty. False if cancelled.
-  bool run(const std::vector<std::size_t>& tiles, const std::function<bool(Point3)>& is_of_interest,
+  /// part's origin; `open_tiles` the tiles that have some. `is_of_interest`, which may be empty, tells of a place whether
+  /// anything within a distance of it in x and y is to be looked at; of the smallest cubes the middle counts. False if cancelled.
+  bool run(const std::vector<std::size_t>& tiles, const std::function<bool(Point3, double)>& is_of_interest,
            const Context& context, std::vector<Point3>& open, std::vector<std::size_t>& open_tiles);
   std::vector<std::size_t> all_tiles() const;
 

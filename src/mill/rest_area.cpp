@@ -19,6 +19,7 @@ bool is_reached(const DropCutter& larger, const OnSurface& surface, Point3 x, Po
   for (int k = 0; k < most_rounds; ++k) {
     const DropCutter::Contact contact = larger.at({c.x, c.y});
     if (!contact.touches() || contact.height <= c.z) return true;
+    if (distance({c.x, c.y, contact.height}, x) <= radius) return true;
     c = surface.put(c);
     const double away = distance(c, x);
     if (away <= radius) return true;

@@ -198,11 +198,16 @@ class ScallopPasses {
   /// Proves that the cuts keep the scallop; adds lines half-way between others near places where that fails, and so on.
   Status prove(std::vector<Cut>& cuts) {
     CoverProof proof(contact_, {job_.tool.radius, job_.tool.allowance, job_.scallop, 0});
-    std::function<bool(Point3)> is_of_interest;
+    std::function<bool(Point3, double)> is_of_interest;
     if (!cells_.empty())
-      is_of_interest = [this](Point3 p) {
-        const Index v = grid_.cell_of(p.x, p.y);
-        return v != SurfaceGrid::none && cells_[v];
+      is_of_interest = [this](Point3 p, double far) {
+        const double step = grid_.step();
+        for (double x = p.x - far; x < p.x + far + step; x += step)
+          for (double y = p.y - far; y < p.y + far + step; y += step) {
+            const Index v = grid_.cell_of(std::min(x, p.x + far), std::min(y, p.y + far));
+            if (v != SurfaceGrid::none && cells_[v]) return true;
+          }
+        return false;
       };
     std::vector<std::size_t> tiles = proof.all_tiles(), open_tiles;
     std::vector<Point3> open;

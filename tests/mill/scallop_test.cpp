@@ -185,13 +185,13 @@ TEST(RestPasses, TakeWhatALargerBallLeaves) {
   const auto part = roof_dome_and_bowl();
   ASSERT_NE(part, nullptr);
   RestOptions o;
-  o.tool.radius = 0.75, o.after = 2.5, o.scallop = 0.1, o.threshold = 0.08;
+  o.tool.radius = 0.75, o.after = 2, o.scallop = 0.15, o.threshold = 0.1;
   const auto milled = mill_rest(part, o);
   ASSERT_TRUE(milled) << milled.error().text();
   EXPECT_EQ(milled->report.open_places, 0u);
   expect_near(part, milled->path, o.tool, o.accuracy, 0.1, "rest");
 
-  const double cell = 0.125;
+  const double cell = 0.15;
   StockOptions stock;
   stock.cell = cell;
   const auto empty = Simulation::run({}, *part, *Cutter::ball(1), stock);
@@ -208,7 +208,7 @@ TEST(RestPasses, TakeWhatALargerBallLeaves) {
   EXPECT_GT(check_left(part, none, o.tool.radius, o.scallop, cell, larger, slack).over, 500u);
 
   // Each place of a cut is near a dexel where the larger ball has left more than the threshold.
-  const double near = 0.5;
+  const double near = 0.6;
   std::vector<char> rest(dexels.columns * dexels.rows);
   const auto far = std::int64_t(near / cell);
   for (std::size_t d = 0; d < rest.size(); ++d) {
