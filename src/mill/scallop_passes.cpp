@@ -218,6 +218,7 @@ class ScallopPasses {
       if (open.empty() || n > halvings) break;
       std::vector<char> near(grid_.size(), 0);
       for (const Point3 p : open) mark({p.x, p.y}, half_, near);
+      for (std::size_t v = 0; v < cells_.size(); ++v) near[v] &= cells_[v];
       const double step = 2 * half_ / std::ldexp(1.0, n - 1);
       if (!add(lines_at(step / 2, step, near), cuts)) return cancelled();
       tiles = open_tiles;
