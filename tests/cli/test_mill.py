@@ -189,7 +189,6 @@ class Mill(support.CliTest):
         self.succeed("mill", "part.off", "out.ngc", "--tool", "ball:1", "--strategy", "rest", "--after", "ball:3", "--scallop", "0.1",
                      "--threshold", "0.05")
         self.succeed("verify", "out.ngc", "--against", "part.off", "--tool", "ball:1")
-        self.succeed("simulate", "out.ngc", "--against", "part.off", "--tool", "ball:1", "--stock", "0,5")
 
     def test_standard_output(self):
         done = self.succeed("mill", "part.off", "-", *OPTIONS)

@@ -5,13 +5,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <random>
-#include <sstream>
 
 #include "mill/left_check.hpp"
 #include "mill/path_check.hpp"
 #include "support/environment.hpp"
-#include "support/small_terrain.hpp"
 
 namespace krepl::test {
 namespace {
@@ -119,40 +116,6 @@ TEST(ScallopPasses, AreTheSameForAnyNumberOfThreads) {
     ASSERT_EQ(first.size(), milled->path.moves.size());
     for (std::size_t k = 0; k < first.size(); ++k) ASSERT_TRUE(first[k].end == milled->path.moves[k].end) << k;
   }
-}
-
-TEST(ScallopPasses, KeepToRandomSmallTerrains) {
-  std::mt19937 random(seed());
-  const int cases = int(8 * effort());
-  std::size_t open = 0, proven = 0, places = 0;
-  for (int k = 0; k < cases; ++k) {
-    std::vector<std::uint8_t> bytes(8 + random() % 40);
-    for (auto& b : bytes) b = std::uint8_t(random());
-    const auto family = SmallTerrainFamily(unsigned(k) % unsigned(SmallTerrainFamily::count));
-    const SmallTerrain c = decode_small_terrain(family, bytes);
-    const auto part = terrain_of(c);
-    if (!part) continue;
-    ScallopOptions o;
-    // Not smaller than the cells: scallops of a tenth of that are thousands of passes.
-    o.tool.radius = std::max(c.radius, 0.6), o.scallop = o.tool.radius / 4;
-    o.accuracy.unit = std::pow(10.0, std::floor(std::log10(o.tool.radius * 1e-3)) - 1);
-    o.accuracy.tolerance = 80 * o.accuracy.unit;
-    const auto milled = mill_scallop(*part, o);
-    ASSERT_TRUE(milled) << milled.error().text() << "\n" << c;
-    std::stringstream what;
-    what << name(family) << " " << k << " radius " << o.tool.radius << "\n" << c;
-    expect_near(*part, milled->path, o.tool, o.accuracy, o.tool.radius / 6, what.str());
-    open += milled->report.open_places > 0, ++proven, places += milled->report.open_places;
-    if (milled->report.open_places == 0) {
-      const double extent = std::max((*part)->highest().x - (*part)->lowest().x, (*part)->highest().y - (*part)->lowest().y);
-      const LeftCheck check = check_left(*part, milled->path, o.tool.radius, o.scallop, std::max(o.tool.radius / 8, extent / 60));
-      EXPECT_LE(check.worst, 1e-9 * (*part)->extent()) << check.over << " of " << check.dexels << " at " << check.at.x << " " << check.at.y
-                                                       << "\n" << what.str();
-    }
-    if (HasFailure()) return;
-  }
-  std::printf("%zu terrains, %zu with %zu places not proven\n", proven, open, places);
-  EXPECT_LE(4 * open, proven);
 }
 
 TEST(ScallopPasses, RefuseWhatHasNoMeaning) {
