@@ -35,10 +35,11 @@ _krepl() {
       return ;;
     --zones) mapfile -t COMPREPLY < <(compgen -W "sub-river stem whole" -- "$current"); return ;;
     --outlet) mapfile -t COMPREPLY < <(compgen -W "guess" -- "$current"); return ;;
-    --strategy) mapfile -t COMPREPLY < <(compgen -W "parallel rough waterline pencil" -- "$current"); return ;;
+    --strategy) mapfile -t COMPREPLY < <(compgen -W "parallel rough waterline pencil scallop rest" -- "$current"); return ;;
     --direction) mapfile -t COMPREPLY < <(compgen -W "zigzag one-way climb conventional" -- "$current"); return ;;
     --post) mapfile -t COMPREPLY < <(compgen -W "linuxcnc grbl" -- "$current"); return ;;
     --control-point) mapfile -t COMPREPLY < <(compgen -W "tip centre" -- "$current"); return ;;
+    --after) mapfile -t COMPREPLY < <(compgen -W "ball:" -- "$current"); return ;;
     --tool) mapfile -t COMPREPLY < <(compgen -W "ball: flat: bull: cone: taper:" -- "$current"); return ;;
     --prefer) mapfile -t COMPREPLY < <(compgen -W "length clearance" -- "$current"); return ;;
     --minimise) mapfile -t COMPREPLY < <(compgen -W "length climb" -- "$current"); return ;;

@@ -24,14 +24,14 @@ struct MillVerbOptions {
   std::string output, tool, strategy = "parallel", direction, post = "linuxcnc", unit = "mm",
                             control_point = "tip";
   std::string boundary, shallow;
-  std::string step_down, ramp_angle, stock_top, stock_margin, steep, valley_angle, shortest;
+  std::string step_down, ramp_angle, stock_top, stock_margin, steep, valley_angle, shortest, after, threshold;
   std::string step_over, scallop, tolerance, allowance, angle, bottom, safe_height, clearance, feed, plunge_feed,
       spindle;
   int decimals = -1, tool_number = 1;
   bool no_arcs = false;
 };
 
-enum class Strategy { parallel, rough, waterline, pencil };
+enum class Strategy { parallel, rough, waterline, pencil, scallop, rest };
 
 struct MillPlan {
   Strategy strategy = Strategy::parallel;
@@ -39,6 +39,8 @@ struct MillPlan {
   RoughOptions rough;
   WaterlineOptions waterline;
   PencilOptions pencil;
+  ScallopOptions scallop;
+  RestOptions rest;
   output::GcodeOptions gcode;
   input::TerrainRequest request;
 };
@@ -137,18 +139,21 @@ Status check_meaning(const MillVerbOptions& o, Strategy strategy) {
     const char* strategies;
   };
   const bool parallel = strategy == Strategy::parallel, rough = strategy == Strategy::rough,
-             waterline = strategy == Strategy::waterline, pencil = strategy == Strategy::pencil;
+             waterline = strategy == Strategy::waterline, pencil = strategy == Strategy::pencil,
+             rest = strategy == Strategy::rest, by_scallop = strategy == Strategy::scallop || rest;
   const Meaning meanings[] = {{"--step-over", o.step_over, parallel || rough, "parallel, rough"},
-                              {"--scallop", o.scallop, parallel, "parallel"},
+                              {"--scallop", o.scallop, parallel || by_scallop, "parallel, scallop, rest"},
                               {"--angle", o.angle, parallel || rough, "parallel, rough"},
                               {"--direction", o.direction, parallel || waterline, "parallel, waterline"},
                               {"--step-down", o.step_down, rough || waterline, "rough, waterline"},
                               {"--steep", o.steep, waterline, "waterline"},
                               {"--shallow", o.shallow, parallel, "parallel"},
                               {"--boundary", o.boundary, parallel || waterline, "parallel, waterline"},
-                              {"--valley-angle", o.valley_angle, pencil, "pencil"},
+                              {"--valley-angle", o.valley_angle, pencil || by_scallop, "pencil, scallop, rest"},
+                              {"--after", o.after, rest, "rest"},
+                              {"--threshold", o.threshold, rest, "rest"},
                               {"--shortest", o.shortest, pencil, "pencil"},
-                              {"--bottom", o.bottom, !pencil, "parallel, rough, waterline"},
+                              {"--bottom", o.bottom, !pencil && !by_scallop, "parallel, rough, waterline"},
                               {"--ramp-angle", o.ramp_angle, rough, "rough"},
                               {"--stock-top", o.stock_top, rough, "rough"},
                               {"--stock-margin", o.stock_margin, rough, "rough"}};
@@ -159,6 +164,8 @@ Status check_meaning(const MillVerbOptions& o, Strategy strategy) {
   if (rough && o.step_over.empty()) return usage("--step-over is not given", "give the distance of passes");
   if ((rough || waterline) && o.step_down.empty())
     return usage("--step-down is not given", "give the distance of levels");
+  if (by_scallop && o.scallop.empty()) return usage("--scallop is not given", "give the greatest height of what may be left");
+  if (rest && o.after.empty()) return usage("--after is not given", "give the larger tool, as ball:DIAMETER");
   return std::monostate{};
 }
 
@@ -212,11 +219,27 @@ Status take_pencil(const MillVerbOptions& o, MillPlan& plan) {
   return take("--shortest", o.shortest, v.shortest);
 }
 
+Status take_scallop(const MillVerbOptions& o, MillPlan& plan) {
+  const ParallelOptions& p = plan.parallel;
+  ScallopOptions& s = plan.scallop;
+  s.tool = p.tool, s.accuracy = p.accuracy, s.motion = p.motion, s.scallop = p.scallop;
+  if (Status taken = take("--valley-angle", o.valley_angle, s.valley_angle, false); !taken) return taken;
+  if (plan.strategy != Strategy::rest) return std::monostate{};
+  RestOptions& r = plan.rest;
+  r.tool = p.tool, r.accuracy = p.accuracy, r.motion = p.motion, r.scallop = p.scallop, r.valley_angle = s.valley_angle;
+  const Result<Cutter> larger = Cutter::parse(o.after);
+  if (!larger) return larger.error();
+  if (larger->kind() != Cutter::Kind::ball)
+    return usage(fmt::format("--after '{}' is not a ball-nose cutter", o.after), "give ball:DIAMETER");
+  r.after = larger->radius();
+  return take("--threshold", o.threshold, r.threshold);
+}
+
 Result<MillPlan> make_plan(const MillVerbOptions& o) {
   MillPlan plan;
   if (Status s = choose("--strategy", o.strategy,
                         {{"parallel", Strategy::parallel}, {"rough", Strategy::rough}, {"waterline", Strategy::waterline},
-                         {"pencil", Strategy::pencil}},
+                         {"pencil", Strategy::pencil}, {"scallop", Strategy::scallop}, {"rest", Strategy::rest}},
                         plan.strategy);
       !s)
     return s.error();
@@ -231,6 +254,8 @@ Result<MillPlan> make_plan(const MillVerbOptions& o) {
     if (Status s = take_waterline(o, plan); !s) return s.error();
   if (plan.strategy == Strategy::pencil)
     if (Status s = take_pencil(o, plan); !s) return s.error();
+  if (plan.strategy == Strategy::scallop || plan.strategy == Strategy::rest)
+    if (Status s = take_scallop(o, plan); !s) return s.error();
   plan.gcode.tool_number = o.tool_number;
   plan.gcode.strategy = o.strategy;
   const Result<input::TerrainRequest> request = terrain_request(o.terrain);
@@ -241,6 +266,13 @@ Result<MillPlan> make_plan(const MillVerbOptions& o) {
 }
 
 void tell_strategy(const MillReport& r, Strategy strategy, Session& session) {
+  if (strategy == Strategy::scallop || strategy == Strategy::rest) {
+    session.detail(fmt::format("passes     {}, {} more where the scallop would be exceeded; {} points along them", r.passes,
+                               r.extra_passes, r.curve_points));
+    session.detail(fmt::format("proofs     {} moves are not proven free and taken over what is in their way; {} places where the "
+                               "scallop is not proven", r.lifted_moves, r.open_places));
+    return;
+  }
   if (strategy == Strategy::waterline || strategy == Strategy::pencil) {
     if (strategy == Strategy::waterline)
       session.detail(fmt::format("levels     {}; {} lines, {} points along them, {} rings are too small", r.levels,
@@ -278,6 +310,8 @@ Result<MilledPath> mill_part(const std::shared_ptr<const Terrain>& part, const M
     case Strategy::rough: return mill_rough(part, plan.rough, context);
     case Strategy::waterline: return mill_waterline(part, plan.waterline, context);
     case Strategy::pencil: return mill_pencil(part, plan.pencil, context);
+    case Strategy::scallop: return mill_scallop(part, plan.scallop, context);
+    case Strategy::rest: return mill_rest(part, plan.rest, context);
     case Strategy::parallel: break;
   }
   return mill_parallel(part, plan.parallel, context);
@@ -317,10 +351,11 @@ void add_path_options(CLI::App& verb, MillVerbOptions& o) {
   verb.add_option("--tool", o.tool, "Cutter: ball:D; for parallel and waterline also flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE, taper:D:ANGLE:TIP_RADIUS")->required()->type_name("KIND:SIZE");
   verb.add_option("--strategy", o.strategy,
                   "parallel (default): passes in vertical planes; rough: out of a block, level by level; waterline: around the "
-                  "part, level by level; pencil: along the valleys and the feet of walls")
+                  "part, level by level; pencil: along the valleys and the feet of walls; scallop: all over, at constant distances "
+                  "on the surface from valleys and border; rest: such passes where a larger ball has left something")
       ->type_name("NAME");
   verb.add_option("--step-over", o.step_over, "Distance of passes")->type_name("LENGTH");
-  verb.add_option("--scallop", o.scallop, "Instead of it: greatest height of what is left between passes")
+  verb.add_option("--scallop", o.scallop, "Greatest height of what is left between passes; parallel: instead of --step-over")
       ->type_name("LENGTH");
   verb.add_option("--angle", o.angle, "Direction of passes, degrees from the x axis (default: 0)")
       ->type_name("DEGREES");
@@ -341,8 +376,10 @@ void add_path_options(CLI::App& verb, MillVerbOptions& o) {
   verb.add_option("--boundary", o.boundary,
                   "parallel, waterline: the tool's axis stays within the polygons of this vector file")
       ->type_name("FILE");
+  verb.add_option("--after", o.after, "rest: the larger tool that has been there before: ball:DIAMETER")->type_name("KIND:SIZE");
+  verb.add_option("--threshold", o.threshold, "rest: what that may have left (default: the scallop)")->type_name("LENGTH");
   verb.add_option("--valley-angle", o.valley_angle,
-                  "pencil: least angle between the normals of a valley's sides (default: 20)")
+                  "pencil, scallop, rest: least angle between the normals of a valley's sides (default: 20)")
       ->type_name("DEGREES");
   verb.add_option("--shortest", o.shortest, "pencil: valleys shorter than that are left out (default: the tool's radius)")
       ->type_name("LENGTH");

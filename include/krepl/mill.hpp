@@ -97,6 +97,8 @@ struct MillReport {
   std::size_t sections = 0;         ///< across the passes, looked at for that
   std::size_t uneven_sections = 0;  ///< of them, where the scallop is exceeded
   double angle = 0;                 ///< used, degrees
+  std::size_t open_places = 0;      ///< of scallop and rest passes: cubes a hundredth of a step-over large in which the scallop
+                                    ///< is not proven to be kept
 };
 
 struct MilledPath {
@@ -192,5 +194,44 @@ struct PencilOptions {
 /// Errors: as mill_parallel and compute_surface; an angle out of its range; no such valley.
 Result<MilledPath> mill_pencil(std::shared_ptr<const Terrain> part, const PencilOptions& options,
                                const Context& context = {});
+
+struct ScallopOptions {
+  MillTool tool;
+  MillAccuracy accuracy;
+  MillMotion motion;
+  double scallop = 0;        ///< greatest height of what is left anywhere; two tolerances to half the tool's radius
+  double valley_angle = 20;  ///< passes start from valleys with an angle between the normals of their sides of at least that, degrees
+};
+
+/// Passes at a constant scallop: along the valleys of the surface of the ball's centre, and along lines at constant distances from
+/// them and from the border, measured on the surface so that slopes and walls have as many passes as they need, hollows more and
+/// edges fewer. Vertical walls are cut where the ball rests on something at their foot.
+///
+/// What is left above what the ball can reach (the part's closing by the ball) is proven not to be higher than the scallop: by bounds
+/// on what the tool leaves of each cube of space that its centre may rest in (docs/mill.md). Where that fails, lines are added half-way
+/// between others, up to six times; cubes that remain are counted in the report. Moves are lines, and proven free as those of
+/// mill_pencil. The same path for any number of threads.
+///
+/// Errors: as mill_pencil; a scallop out of its range, or so low that its raster has more than 16 million places.
+/// Time: that of the surface, and some 20 us for each place of a raster of an eighth of the step-over, most of it for the proof. Rest passes take longer where
+/// the larger ball cannot reach: a millisecond a place.
+Result<MilledPath> mill_scallop(std::shared_ptr<const Terrain> part, const ScallopOptions& options,
+                                const Context& context = {});
+
+struct RestOptions {
+  MillTool tool;
+  MillAccuracy accuracy;
+  MillMotion motion;
+  double scallop = 0;        ///< as ScallopOptions has it
+  double valley_angle = 20;  ///< likewise
+  double after = 0;          ///< radius of the larger ball that has been there before, with the same allowance
+  double threshold = -1;     ///< what it may have left, normal to the surface, tolerance to tool radius; negative: the scallop
+};
+
+/// Rest machining: the passes of mill_scallop only where a larger ball cannot take off all that is more than a threshold above what
+/// this one reaches, however close its passes are: where the part's closing by the larger ball is so much higher.
+///
+/// Errors: as mill_scallop; a larger tool that is not; a threshold out of its range; nothing left.
+Result<MilledPath> mill_rest(std::shared_ptr<const Terrain> part, const RestOptions& options, const Context& context = {});
 
 }  // namespace krepl

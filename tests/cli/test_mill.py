@@ -218,6 +218,20 @@ class Mill(support.CliTest):
         self.fail_with(1, "line.wkt: a boundary consists of polygons, feature 1; leave out lines and points", "mill", "part.off", "none.ngc", *OPTIONS, "--boundary", "line.wkt",
                        output="none.ngc")
 
+    def test_scallop_passes(self):
+        options = ("--tool", "ball:3", "--strategy", "scallop", "--scallop", "0.3")
+        done = self.succeed("mill", "part.off", "out.ngc", *options, "--verbose")
+        self.assertIn("0 places where the scallop is not proven", done.stdout + done.stderr)
+        for motion, _, _, (x, y, z), _ in interpret(self.text("out.ngc"))[::7]:
+            for tri in triangles():
+                self.assertGreaterEqual(nearest((x, y, z + 1.5), tri), 1.5 - 1e-9)
+        self.succeed("verify", "out.ngc", "--against", "part.off", "--tool", "ball:3")
+
+    def test_rest_passes(self):
+        self.succeed("mill", "part.off", "out.ngc", "--tool", "ball:1", "--strategy", "rest", "--after", "ball:3", "--scallop", "0.1",
+                     "--threshold", "0.05")
+        self.succeed("verify", "out.ngc", "--against", "part.off", "--tool", "ball:1")
+
     def test_standard_output(self):
         done = self.succeed("mill", "part.off", "-", *OPTIONS)
         self.assertTrue(done.stdout.startswith("(part.off, parallel by krepl)\n"))
@@ -253,7 +267,7 @@ class Messages(support.CliTest):
         step = ("--step-over", "1")
         self.refuse("neither --step-over nor --scallop is given; give one of them")
         self.refuse("both --step-over and --scallop are given; give one of them", *step, "--scallop", "0.1")
-        self.refuse("--strategy 'spiral' is unknown; give one of parallel, rough, waterline, pencil", *step, "--strategy", "spiral")
+        self.refuse("--strategy 'spiral' is unknown; give one of parallel, rough, waterline, pencil, scallop, rest", *step, "--strategy", "spiral")
         self.refuse("--post 'fanuc' is unknown; give one of linuxcnc, grbl", *step, "--post", "fanuc")
         self.refuse("--angle 'north' is not a finite number; give one", *step, "--angle", "north")
         self.refuse("the safe height 2 is below the highest place of the tool over the part; use at least 4.0002", *step,
@@ -265,13 +279,20 @@ class Messages(support.CliTest):
     def test_options_of_other_strategies(self):
         step = ("--step-over", "1")
         self.refuse("--step-down has no meaning for strategy parallel; it belongs to rough, waterline", *step, "--step-down", "1")
-        self.refuse("--scallop has no meaning for strategy rough; it belongs to parallel", "--scallop", "1", "--strategy", "rough")
+        self.refuse("--scallop has no meaning for strategy rough; it belongs to parallel, scallop, rest", "--scallop", "1", "--strategy", "rough")
         self.refuse("--step-over has no meaning for strategy waterline; it belongs to parallel, rough", *step, "--strategy", "waterline")
         self.refuse("--direction 'zigzag' is unknown; give one of climb, conventional", "--strategy", "waterline", "--step-down", "1", "--direction", "zigzag")
         self.refuse("the valleys' angle is not between 0 and 180 degrees", "--strategy", "pencil", "--valley-angle", "180")
         self.refuse("--bottom has no meaning for strategy pencil; it belongs to parallel, rough, waterline", "--strategy", "pencil", "--bottom", "1")
         self.refuse("the steep angle is not between 0 and 90 degrees", "--strategy", "waterline", "--step-down", "1", "--steep", "90")
         self.refuse("--step-down is not given; give the distance of levels", *step, "--strategy", "rough")
+        self.refuse("--scallop is not given; give the greatest height of what may be left", "--strategy", "scallop")
+        self.refuse("the scallop height 0.01 leaves no room for the tolerance 0.01; use a tolerance of at most 0.005", "--strategy", "scallop", "--scallop", "0.01")
+        self.refuse("--after has no meaning for strategy scallop; it belongs to rest", "--strategy", "scallop", "--scallop", "0.1", "--after", "ball:6")
+        self.refuse("--after is not given; give the larger tool, as ball:DIAMETER", "--strategy", "rest", "--scallop", "0.1")
+        self.refuse("--after 'flat:6' is not a ball-nose cutter; give ball:DIAMETER", "--strategy", "rest", "--scallop", "0.1", "--after", "flat:6")
+        self.refuse("the radius of the tool before is not a finite number greater than that of the tool", "--strategy", "rest", "--scallop", "0.1", "--after", "ball:3")
+        self.refuse("the threshold 2 is not between the tolerance and the tool's radius", "--strategy", "rest", "--scallop", "0.1", "--after", "ball:6", "--threshold", "2")
 
     def test_bad_input(self):
         self.write("empty.off", "OFF\n0 0 0\n")

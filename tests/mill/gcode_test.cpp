@@ -194,6 +194,26 @@ TEST_F(Programs, AreWhatTheInterpreterDoes) {
     expect_read(along->path, tip);
     expect_read(waterlines->path, tip);
   }
+  // A valley of two slopes along a diagonal: no number of it is round.
+  const auto valley = Terrain::from_grid({3, 3, {0, 0}, 5, 4, Terrain::Split::falling}, {5, 2.5, 0, 2.5, 0, 2.5, 0, 2.5, 5});
+  ASSERT_TRUE(valley);
+  PencilOptions along;
+  along.tool.radius = 1.5;
+  ScallopOptions over;
+  over.tool.radius = 1.5, over.scallop = 0.2;
+  for (const int decimals : {4, 3}) {
+    gcode.decimals = decimals, gcode.post = decimals == 4 ? output::GcodePost::linuxcnc : output::GcodePost::grbl;
+    along.accuracy.unit = over.accuracy.unit = std::pow(10.0, -decimals);
+    along.accuracy.tolerance = over.accuracy.tolerance = 0.02;
+    const auto pencil = mill_pencil(std::make_shared<const Terrain>(*valley), along);
+    ASSERT_TRUE(pencil) << pencil.error().text();
+    EXPECT_GT(pencil->report.lines, 0u);
+    expect_read(pencil->path, gcode);
+    const auto scallop = mill_scallop(std::make_shared<const Terrain>(*valley), over);
+    ASSERT_TRUE(scallop) << scallop.error().text();
+    EXPECT_GT(scallop->report.lines, 20u);
+    expect_read(scallop->path, gcode);
+  }
   EXPECT_GT(arcs_, 50u);
   EXPECT_GT(moves_, 1000u);
 }
