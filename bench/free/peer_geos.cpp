@@ -1,5 +1,6 @@
 #include <geos_c.h>
 
+#include "../zone/geos_lines.hpp"
 #include "ways.hpp"
 
 namespace bench {
@@ -9,9 +10,7 @@ namespace {
 class Geos : public Way {
  public:
   Geos(const Lines& lines, double radius, const std::vector<krepl::Point>& places) : context_(GEOS_init_r()), radius_(radius) {
-    std::vector<GEOSGeometry*> parts;
-    for (std::size_t i = 0; i < lines.count(); ++i) parts.push_back(line(lines, i));
-    input_ = GEOSGeom_createCollection_r(context_, GEOS_MULTILINESTRING, parts.data(), unsigned(parts.size()));
+    input_ = multi_line(context_, lines);
     prepared_ = GEOSPrepare_r(context_, input_);
     for (const krepl::Point& p : places) places_.push_back(GEOSGeom_createPointFromXY_r(context_, p.x, p.y));
     double first = 0;  // the tree is made by the first question
@@ -36,14 +35,6 @@ class Geos : public Way {
   }
 
  private:
-  GEOSGeometry* line(const Lines& lines, std::size_t i) {
-    const std::size_t begin = lines.begin[i], end = lines.begin[i + 1];
-    GEOSCoordSequence* sequence = GEOSCoordSeq_create_r(context_, unsigned(end - begin), 2);
-    for (std::size_t j = begin; j < end; ++j)
-      GEOSCoordSeq_setXY_r(context_, sequence, unsigned(j - begin), lines.points[j].x, lines.points[j].y);
-    return GEOSGeom_createLineString_r(context_, sequence);
-  }
-
   GEOSContextHandle_t context_;
   double radius_;
   GEOSGeometry* input_ = nullptr;

@@ -1,6 +1,7 @@
 #include <geos_c.h>
 
 #include "engines.hpp"
+#include "geos_lines.hpp"
 
 namespace bench {
 namespace {
@@ -9,9 +10,7 @@ namespace {
 class Geos : public Engine {
  public:
   explicit Geos(const Task& task) : context_(GEOS_init_r()), radius_(task.radius) {
-    std::vector<GEOSGeometry*> lines;
-    for (std::size_t i = 0; i < task.lines.count(); ++i) lines.push_back(line(task.lines, i));
-    input_ = GEOSGeom_createCollection_r(context_, GEOS_MULTILINESTRING, lines.data(), unsigned(lines.size()));
+    input_ = multi_line(context_, task.lines);
     parameters_ = GEOSBufferParams_create_r(context_);
     const int quadrant_segments = (chords_of_circle(task.radius, task.chord_error) + 3) / 4;
     GEOSBufferParams_setQuadrantSegments_r(context_, parameters_, quadrant_segments);
@@ -41,14 +40,6 @@ class Geos : public Engine {
   }
 
  private:
-  GEOSGeometry* line(const Lines& lines, std::size_t i) {
-    const std::size_t begin = lines.begin[i], end = lines.begin[i + 1];
-    GEOSCoordSequence* sequence = GEOSCoordSeq_create_r(context_, unsigned(end - begin), 2);
-    for (std::size_t j = begin; j < end; ++j)
-      GEOSCoordSeq_setXY_r(context_, sequence, unsigned(j - begin), lines.points[j].x, lines.points[j].y);
-    return GEOSGeom_createLineString_r(context_, sequence);
-  }
-
   GEOSContextHandle_t context_;
   double radius_;
   GEOSGeometry* input_ = nullptr;
