@@ -62,6 +62,12 @@ void add_program_options(CLI::App& verb, ProgramOptions& options, const std::str
       ->type_name("NAME");
 }
 
+Result<bool> steers_centre(const std::string& control_point) {
+  if (!control_point.empty() && control_point != "tip" && control_point != "centre")
+    return Error{ErrorCode::usage, "--control-point '" + control_point + "' is unknown", "", "give tip or centre"};
+  return control_point == "centre";
+}
+
 Result<ProgramSetup> program_setup(const ProgramOptions& options) {
   const Result<Cutter> cutter = Cutter::parse(options.tool);
   if (!cutter) return cutter.error();
@@ -70,10 +76,9 @@ Result<ProgramSetup> program_setup(const ProgramOptions& options) {
   const Result<double> unit = parse_unit(options.unit);
   if (!unit) return unit.error();
   ProgramSetup setup{*cutter, *stock, *unit};
-  if (!options.control_point.empty() && options.control_point != "tip" && options.control_point != "centre")
-    return Error{ErrorCode::usage, "--control-point '" + options.control_point + "' is unknown", "",
-                 "give tip or centre"};
-  setup.centre = options.control_point == "centre";
+  const Result<bool> centre = steers_centre(options.control_point);
+  if (!centre) return centre.error();
+  setup.centre = *centre;
   if (!options.cell.empty()) {
     const Result<double> cell = parse_positive("--cell", options.cell);
     if (!cell) return cell.error();

@@ -40,6 +40,9 @@ struct Program {
 /// --before, --stock, --cell, --unit, --control-point; `cell_default` is what the help says of a cell that is not given.
 void add_program_options(CLI::App& verb, ProgramOptions& options, const std::string& cell_default);
 
+/// What --control-point says: the centre, else the tip. An error (usage) if it is neither.
+Result<bool> steers_centre(const std::string& control_point);
+
 /// Errors (usage): what is wrong with which option.
 Result<ProgramSetup> program_setup(const ProgramOptions& options);
 

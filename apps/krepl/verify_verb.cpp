@@ -251,15 +251,14 @@ int verify_surface(const VerifyOptions& options, Session& session) {
 Status path_options(const VerifyOptions& options, verify::PathCheckOptions& check) {
   if (options.tool.empty() == options.radius.empty())
     return Error{ErrorCode::usage, "a tool path does not tell its tool", "", "give --tool, as ball:D or flat:D"};
-  if (!options.control_point.empty() && options.control_point != "tip" && options.control_point != "centre")
-    return Error{ErrorCode::usage, "--control-point '" + options.control_point + "' is unknown", "",
-                 "give tip or centre"};
+  const Result<bool> centre = steers_centre(options.control_point);
+  if (!centre) return centre.error();
   if (!options.tool.empty()) {
     const auto cutter = Cutter::parse(options.tool);
     if (!cutter) return cutter.error();
     check.radius = cutter->radius();
     if (cutter->kind() != Cutter::Kind::ball) check.cutter = *cutter;
-    if (check.cutter && options.control_point == "centre")
+    if (check.cutter && *centre)
       return Error{ErrorCode::usage, "tool '" + options.tool + "' has no centre", "", "give --control-point tip"};
   } else {
     const auto radius = parse_radius(options.radius);
@@ -271,7 +270,7 @@ Status path_options(const VerifyOptions& options, verify::PathCheckOptions& chec
     if (!parsed) return parsed.error();
     check.max_error = *parsed;
   }
-  check.lift = options.control_point == "centre" || check.cutter ? 0 : check.radius;
+  check.lift = *centre || check.cutter ? 0 : check.radius;
   check.samples = options.samples;
   return std::monostate{};
 }
