@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <limits>
 
 #include "input/network_reader.hpp"
@@ -122,26 +121,26 @@ int run_axis(const AxisOptions& options, Session& session) {
 
 }  // namespace
 
-void add_axis_verb(CLI::App& program, Session& session) {
+void add_axis_verb(Verb& program, Session& session) {
   auto options = std::make_shared<AxisOptions>();
-  CLI::App* verb =
-      program.add_subcommand("axis", "Medial axis or Voronoi diagram of lines, polygons and points, with clearances");
-  verb->add_option("IN", options->input.path,
-                   "Vector file: any OGR format, .wkt (a geometry a line), .wkb, .gz of them, or -")
-      ->required();
-  verb->add_option("OUT", options->output,
-                   "Result: .gpkg .fgb .geojson .shp ... (lines with attributes), .wkt (lines), .svg (a picture), or -")
-      ->required();
-  verb->add_flag("--all", options->all, "The whole Voronoi diagram: also the perpendiculars at the ends of segments");
-  verb->add_option("--max-error", options->max_error,
-                   "Largest deviation of chords from parabolas (default: extent / 10000)")
-      ->type_name("LENGTH");
-  verb->add_option("--max-clearance", options->max_clearance,
-                   "Only what is no farther than this from the input (default: 2 extents)")
-      ->type_name("LENGTH");
-  add_network_options(*verb, options->input, options->format);
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_axis(*options, session); });
+  Verb verb =
+      program.add_verb("axis", "Medial axis or Voronoi diagram of lines, polygons and points, with clearances");
+  verb.add_option("IN", options->input.path,
+                  "Vector file: any OGR format, .wkt (a geometry a line), .wkb, .gz of them, or -")
+      .required();
+  verb.add_option("OUT", options->output,
+                  "Result: .gpkg .fgb .geojson .shp ... (lines with attributes), .wkt (lines), .svg (a picture), or -")
+      .required();
+  verb.add_flag("--all", options->all, "The whole Voronoi diagram: also the perpendiculars at the ends of segments");
+  verb.add_option("--max-error", options->max_error,
+                  "Largest deviation of chords from parabolas (default: extent / 10000)")
+      .type_name("LENGTH");
+  verb.add_option("--max-clearance", options->max_clearance,
+                  "Only what is no farther than this from the input (default: 2 extents)")
+      .type_name("LENGTH");
+  add_network_options(verb, options->input, options->format);
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_axis(*options, session); });
 }
 
 }  // namespace krepl::app

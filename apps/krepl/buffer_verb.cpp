@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 
 #include "input/network_reader.hpp"
 #include "krepl/curve_zone.hpp"
@@ -220,29 +219,29 @@ int run_buffer(const BufferOptions& options, Session& session) {
 
 }  // namespace
 
-void add_buffer_verb(CLI::App& program, Session& session) {
+void add_buffer_verb(Verb& program, Session& session) {
   auto options = std::make_shared<BufferOptions>();
-  CLI::App* verb = program.add_subcommand(
+  Verb verb = program.add_verb(
       "buffer", "Buffer zone of lines, polygons and points, bounded by true arcs");
-  verb->add_option("IN", options->input.path, "Vector file: any OGR format, .wkt (a geometry a line), .wkb, .gz of them, or -")
-      ->required();
-  verb->add_option("OUT", options->output,
-                   "Result: .gpkg .fgb .wkt .wkb (curves), .svg .dxf (arcs), .geojson .shp ... (chords), or -")
-      ->required();
-  verb->add_option("--radius", options->radius,
-                   "Radius of the disk, in the unit of the coordinates; several, or FIRST:LAST:STEP, give nested zones; "
-                   "negative: polygons are shrunk; or an expression of fields, a radius for each feature: \"width / 2 + 5\"")
-      ->type_name("R[,R2,...]");
-  add_feature_options(*verb, options->features);
-  add_network_options(*verb, options->input, options->format);
-  add_shape_options(*verb, options->shape);
-  verb->add_option("--max-error", options->max_error, "Formats without arcs: largest deviation (default: radius / 1000)")
-      ->type_name("LENGTH");
-  verb->add_flag("--separate", options->separate, "A feature for each polygon, not for each radius");
-  verb->add_flag("--no-pieces", options->no_pieces, "GeoPackage: no layer of boundary pieces with their origin");
-  verb->add_option("--engine", options->engine, "Algorithm: auto, intervals, voronoi, sweep")->type_name("NAME");
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_buffer(*options, session); });
+  verb.add_option("IN", options->input.path, "Vector file: any OGR format, .wkt (a geometry a line), .wkb, .gz of them, or -")
+      .required();
+  verb.add_option("OUT", options->output,
+                  "Result: .gpkg .fgb .wkt .wkb (curves), .svg .dxf (arcs), .geojson .shp ... (chords), or -")
+      .required();
+  verb.add_option("--radius", options->radius,
+                  "Radius of the disk, in the unit of the coordinates; several, or FIRST:LAST:STEP, give nested zones; "
+                  "negative: polygons are shrunk; or an expression of fields, a radius for each feature: \"width / 2 + 5\"")
+      .type_name("R[,R2,...]");
+  add_feature_options(verb, options->features);
+  add_network_options(verb, options->input, options->format);
+  add_shape_options(verb, options->shape);
+  verb.add_option("--max-error", options->max_error, "Formats without arcs: largest deviation (default: radius / 1000)")
+      .type_name("LENGTH");
+  verb.add_flag("--separate", options->separate, "A feature for each polygon, not for each radius");
+  verb.add_flag("--no-pieces", options->no_pieces, "GeoPackage: no layer of boundary pieces with their origin");
+  verb.add_option("--engine", options->engine, "Algorithm: auto, intervals, voronoi, sweep").type_name("NAME");
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_buffer(*options, session); });
 }
 
 }  // namespace krepl::app

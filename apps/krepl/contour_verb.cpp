@@ -1,7 +1,6 @@
 // krepl contour: waterlines of a surface.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 
 #include "cut_options.hpp"
@@ -84,19 +83,19 @@ int run_contour(const ContourVerbOptions& options, Session& session) {
 
 }  // namespace
 
-void add_contour_verb(CLI::App& program, Session& session) {
+void add_contour_verb(Verb& program, Session& session) {
   auto options = std::make_shared<ContourVerbOptions>();
-  CLI::App* verb = program.add_subcommand("contour", "Waterlines of the surface of a ball's centre, of true curves");
-  add_cut_options(*verb, options->cut,
+  Verb verb = program.add_verb("contour", "Waterlines of the surface of a ball's centre, of true curves");
+  add_cut_options(verb, options->cut,
                   "Result: .csv (pieces), .gpkg .geojson .shp ... (rings), .wkt, .svg, .dxf, or - (CSV)");
-  verb->add_option("--level", options->levels, "Heights of the ball's centre, separated by commas")->type_name("Z,...");
-  verb->add_option("--step", options->step, "All whole multiples of this height instead")->type_name("DZ");
-  verb->add_option("--ties", options->ties,
-                   "What lies exactly at a level belongs to the high (default) or the low side")
-      ->check(CLI::IsMember({"high", "low"}))
-      ->type_name("SIDE");
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_contour(*options, session); });
+  verb.add_option("--level", options->levels, "Heights of the ball's centre, separated by commas").type_name("Z,...");
+  verb.add_option("--step", options->step, "All whole multiples of this height instead").type_name("DZ");
+  verb.add_option("--ties", options->ties,
+                  "What lies exactly at a level belongs to the high (default) or the low side")
+      .one_of({"high", "low"})
+      .type_name("SIDE");
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_contour(*options, session); });
 }
 
 }  // namespace krepl::app

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 
@@ -11,17 +10,17 @@
 
 namespace krepl::app {
 
-void add_cut_options(CLI::App& verb, CutOptions& options, const char* result) {
+void add_cut_options(Verb& verb, CutOptions& options, const char* result) {
   add_terrain_options(verb, options.terrain);
-  verb.add_option("OUT", options.output, result)->required();
+  verb.add_option("OUT", options.output, result).required();
   verb.add_option("--radius", options.radius, "Radius of the ball, in the unit of the coordinates")
-      ->required()
-      ->type_name("R");
+      .required()
+      .type_name("R");
   verb.add_option("--format", options.format, "Format of the result, in place of what its extension says")
-      ->type_name("NAME");
+      .type_name("NAME");
   verb.add_option("--max-error", options.max_error,
                   "Largest deviation of chords where a format has no true curve (default: radius / 1000)")
-      ->type_name("LENGTH");
+      .type_name("LENGTH");
 }
 
 Result<CutPlan> cut_plan(const CutOptions& options) {

@@ -30,7 +30,7 @@ struct CutInput {
   std::unique_ptr<SurfaceCutter> cutter;
 };
 
-void add_cut_options(CLI::App& verb, CutOptions& options, const char* result);
+void add_cut_options(Verb& verb, CutOptions& options, const char* result);
 Result<CutPlan> cut_plan(const CutOptions& options);
 /// Reads the terrain and computes its surface; null after a failure that has been told, whose exit status goes to
 /// `status`.

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 
@@ -79,14 +78,14 @@ bool needs_features(const FeatureOptions& f, const std::string& radius) {
          is_radius_expression(radius);
 }
 
-void add_feature_options(CLI::App& verb, FeatureOptions& options) {
+void add_feature_options(Verb& verb, FeatureOptions& options) {
   verb.add_option("--radius-field", options.radius_field, "In place of --radius: field that holds each feature's radius")
-      ->type_name("NAME");
+      .type_name("NAME");
   verb.add_flag("--per-feature", options.per_feature, "A zone for each feature, with the feature's attributes");
-  verb.add_option("--dissolve-by", options.dissolve_by, "A zone for each value of this field")->type_name("FIELD");
+  verb.add_option("--dissolve-by", options.dissolve_by, "A zone for each value of this field").type_name("FIELD");
   verb.add_option("--owner", options.owner,
                   "nearest: zones of features (or groups) do not overlap, each place belongs to the nearest")
-      ->type_name("NAME");
+      .type_name("NAME");
 }
 
 void tell(const output::ZoneFileReport& report, const FeatureJob& job, Session& session) {

@@ -14,7 +14,7 @@ struct FeatureOptions {
   std::string radius_field, dissolve_by, owner;
 };
 
-void add_feature_options(CLI::App& verb, FeatureOptions& options);
+void add_feature_options(Verb& verb, FeatureOptions& options);
 
 /// True for a --radius that is neither a number nor a list of them but looks like an expression of fields.
 bool is_radius_expression(const std::string& text);

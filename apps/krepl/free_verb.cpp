@@ -1,7 +1,6 @@
 // krepl free: where a disk or ball may be, how much room it has there, and where motions first cut in.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "free_rows.hpp"
@@ -284,58 +283,58 @@ int run_free(const FreeOptions& options, Session& session) {
 
 }  // namespace
 
-void add_free_verb(CLI::App& program, Session& session) {
+void add_free_verb(Verb& program, Session& session) {
   auto options = std::make_shared<FreeOptions>();
-  CLI::App* verb = program.add_subcommand(
+  Verb verb = program.add_verb(
       "free", "Is a disk or ball free at given places, its clearance, and where motions first cut in");
-  verb->add_option("IN", options->terrain.request.path,
-                   "Obstacles: any OGR vector format, .wkt, .wkb, .gz of them, or -; or a terrain: any GDAL raster, "
-                   ".stl .obj .ply .off")
-      ->required();
-  verb->add_option("--radius", options->radius, "Radius of the disk or ball, in the unit of the coordinates")
-      ->required()
-      ->type_name("R");
-  verb->add_option("--at", options->places,
-                   "Placements of the centre: CSV with columns x,y and over a terrain z (others are ignored), or -")
-      ->type_name("PTS.csv");
-  verb->add_option("--motion", options->motions,
-                   "In place of --at: motions of the centre, lines of any OGR vector format, .wkt, .wkb; or CSV with the same "
-                   "columns, a row a point; a column motion tells them apart")
-      ->type_name("LINES");
-  verb->add_option("--motion-layer", options->motion_layer, "Vector: layer of the motions")->type_name("NAME");
-  verb->add_option("--motion-where", options->motion_where, "Vector: motions to take, as SQL")->type_name("CONDITION");
-  verb->add_flag("--components", options->components,
-                 "Plane: with --at, also the connected component of free space that a placement is in, 0 the unbounded one; "
-                 "without it, the components as polygons");
-  verb->add_option("-o,--output", options->output,
-                   "Result: CSV; of placements x,y[,z],free,clearance,kind,px,py,pz|feature[,component], or -; of components alone "
-                   ".gpkg, .geojson ...")
-      ->required()
-      ->type_name("OUT");
-  verb->add_option("--crs", options->terrain.request.crs,
-                   "Coordinate system of the data, in place of what the file says")
-      ->type_name("EPSG:n");
-  verb->add_option("--to-crs", options->terrain.request.to_crs,
-                   "Plane coordinate system to take IN to; places are in it; auto chooses one")
-      ->type_name("EPSG:n|auto");
-  verb->add_option("--layer", options->plane.layer, "Vector: layer to read")->type_name("NAME");
-  verb->add_option("--where", options->plane.where, "Vector: features to read, as SQL: \"class = 'wall'\"")
-      ->type_name("CONDITION");
-  add_arc_option(*verb, options->plane.arc_error);
-  verb->add_option("--format", options->format, "Components: format, in place of the extension")->type_name("NAME");
-  verb->add_option("--max-error", options->max_error,
-                   "Components: largest deviation of chords where a format has no arcs (default: R / 1000)")
-      ->type_name("LENGTH");
-  verb->add_option("--z-scale", options->terrain.z_scale, "Terrain: multiply heights by this number (default: 1)")
-      ->type_name("FACTOR");
-  verb->add_option("--split", options->terrain.split,
-                   "Raster: diagonal that splits a cell: rising (default), falling, shorter")
-      ->type_name("NAME");
-  verb->add_option("--band", options->terrain.request.band, "Raster: band to read (default: 1)")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_free(*options, session); });
+  verb.add_option("IN", options->terrain.request.path,
+                  "Obstacles: any OGR vector format, .wkt, .wkb, .gz of them, or -; or a terrain: any GDAL raster, "
+                  ".stl .obj .ply .off")
+      .required();
+  verb.add_option("--radius", options->radius, "Radius of the disk or ball, in the unit of the coordinates")
+      .required()
+      .type_name("R");
+  verb.add_option("--at", options->places,
+                  "Placements of the centre: CSV with columns x,y and over a terrain z (others are ignored), or -")
+      .type_name("PTS.csv");
+  verb.add_option("--motion", options->motions,
+                  "In place of --at: motions of the centre, lines of any OGR vector format, .wkt, .wkb; or CSV with the same "
+                  "columns, a row a point; a column motion tells them apart")
+      .type_name("LINES");
+  verb.add_option("--motion-layer", options->motion_layer, "Vector: layer of the motions").type_name("NAME");
+  verb.add_option("--motion-where", options->motion_where, "Vector: motions to take, as SQL").type_name("CONDITION");
+  verb.add_flag("--components", options->components,
+                "Plane: with --at, also the connected component of free space that a placement is in, 0 the unbounded one; "
+                "without it, the components as polygons");
+  verb.add_option("-o,--output", options->output,
+                  "Result: CSV; of placements x,y[,z],free,clearance,kind,px,py,pz|feature[,component], or -; of components alone "
+                  ".gpkg, .geojson ...")
+      .required()
+      .type_name("OUT");
+  verb.add_option("--crs", options->terrain.request.crs,
+                  "Coordinate system of the data, in place of what the file says")
+      .type_name("EPSG:n");
+  verb.add_option("--to-crs", options->terrain.request.to_crs,
+                  "Plane coordinate system to take IN to; places are in it; auto chooses one")
+      .type_name("EPSG:n|auto");
+  verb.add_option("--layer", options->plane.layer, "Vector: layer to read").type_name("NAME");
+  verb.add_option("--where", options->plane.where, "Vector: features to read, as SQL: \"class = 'wall'\"")
+      .type_name("CONDITION");
+  add_arc_option(verb, options->plane.arc_error);
+  verb.add_option("--format", options->format, "Components: format, in place of the extension").type_name("NAME");
+  verb.add_option("--max-error", options->max_error,
+                  "Components: largest deviation of chords where a format has no arcs (default: R / 1000)")
+      .type_name("LENGTH");
+  verb.add_option("--z-scale", options->terrain.z_scale, "Terrain: multiply heights by this number (default: 1)")
+      .type_name("FACTOR");
+  verb.add_option("--split", options->terrain.split,
+                  "Raster: diagonal that splits a cell: rising (default), falling, shorter")
+      .type_name("NAME");
+  verb.add_option("--band", options->terrain.request.band, "Raster: band to read (default: 1)")
+      .type_name("N")
+      .positive();
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_free(*options, session); });
 }
 
 }  // namespace krepl::app

@@ -1,7 +1,6 @@
 // krepl height: how high a ball or another cutter comes to rest at given places.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
 
@@ -140,24 +139,24 @@ int run_height(const HeightOptions& options, Session& session) {
 
 }  // namespace
 
-void add_height_verb(CLI::App& program, Session& session) {
+void add_height_verb(Verb& program, Session& session) {
   auto options = std::make_shared<HeightOptions>();
-  CLI::App* verb = program.add_subcommand(
+  Verb verb = program.add_verb(
       "height", "How high a ball or another cutter comes to rest at given places, and what it touches");
-  add_terrain_options(*verb, options->terrain);
-  verb->add_option("--radius", options->radius,
-                   "Radius of a ball, in the unit of the coordinates; h is its centre's height")
-      ->type_name("R");
-  verb->add_option("--tool", options->tool,
-                   "Cutter in place of --radius: ball:D, flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE or "
-                   "taper:D:ANGLE:TIP_RADIUS; h is its tip's height")
-      ->type_name("TOOL");
-  verb->add_option("--at", options->places, "Places: CSV with columns x and y (others are ignored), or -")
-      ->required()->type_name("PTS.csv");
-  verb->add_option("-o,--output", options->output, "Result: CSV with columns x,y,h,kind,px,py,pz, or -")
-      ->required()->type_name("OUT.csv");
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_height(*options, session); });
+  add_terrain_options(verb, options->terrain);
+  verb.add_option("--radius", options->radius,
+                  "Radius of a ball, in the unit of the coordinates; h is its centre's height")
+      .type_name("R");
+  verb.add_option("--tool", options->tool,
+                  "Cutter in place of --radius: ball:D, flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE or "
+                  "taper:D:ANGLE:TIP_RADIUS; h is its tip's height")
+      .type_name("TOOL");
+  verb.add_option("--at", options->places, "Places: CSV with columns x and y (others are ignored), or -")
+      .required().type_name("PTS.csv");
+  verb.add_option("-o,--output", options->output, "Result: CSV with columns x,y,h,kind,px,py,pz, or -")
+      .required().type_name("OUT.csv");
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_height(*options, session); });
 }
 
 }  // namespace krepl::app

@@ -1,7 +1,6 @@
 // krepl info: what a result is like.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -232,15 +231,15 @@ int run_info(const InfoOptions& options, Session& session) {
 
 }  // namespace
 
-void add_info_verb(CLI::App& program, Session& session) {
+void add_info_verb(Verb& program, Session& session) {
   auto options = std::make_shared<InfoOptions>();
-  CLI::App* verb =
-      program.add_subcommand("info", "What a result is like: counts, areas, lengths, the smallest, the sharpest");
-  verb->add_option("RESULT", options->result, "Surface (.json, .gpkg), zone (vector file) or profile (.csv)")
-      ->required();
-  verb->add_flag("--json", options->json, "Print JSON, with all digits");
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_info(*options, session); });
+  Verb verb =
+      program.add_verb("info", "What a result is like: counts, areas, lengths, the smallest, the sharpest");
+  verb.add_option("RESULT", options->result, "Surface (.json, .gpkg), zone (vector file) or profile (.csv)")
+      .required();
+  verb.add_flag("--json", options->json, "Print JSON, with all digits");
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_info(*options, session); });
 }
 
 }  // namespace krepl::app

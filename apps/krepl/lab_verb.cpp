@@ -1,7 +1,6 @@
 // krepl lab: the thesis's constructions and experiments.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
@@ -90,55 +89,55 @@ int run_real(const LabOptions& options, Session& session) {
 
 /// An experiment as a sub-verb of its own, so that it has only the options that mean something to it.
 struct Menu {
-  CLI::App& lab;
+  Verb& lab;
   Session& session;
 
-  CLI::App* add(const char* name, const char* what, const std::shared_ptr<LabOptions>& options,
-                std::function<int()> work) {
-    CLI::App* verb = lab.add_subcommand(name, what);
-    verb->add_option("-o,--output", options->output,
-                     "Directory for the table (.csv, .json), terrains (.obj, .csv) and pictures (.svg)")
-        ->type_name("DIR");
-    session.add_common_options(*verb);
-    session.on_run(*verb, std::move(work));
+  Verb add(const char* name, const char* what, const std::shared_ptr<LabOptions>& options,
+           std::function<int()> work) {
+    Verb verb = lab.add_verb(name, what);
+    verb.add_option("-o,--output", options->output,
+                    "Directory for the table (.csv, .json), terrains (.obj, .csv) and pictures (.svg)")
+        .type_name("DIR");
+    session.add_common_options(verb);
+    session.on_run(verb, std::move(work));
     return verb;
   }
-  static void add_sizes(CLI::App& verb, LabOptions& options, std::vector<std::size_t> sizes, const char* what) {
+  static void add_sizes(Verb& verb, LabOptions& options, std::vector<std::size_t> sizes, const char* what) {
     options.n = std::move(sizes);
-    verb.add_option("--n", options.n, what)->delimiter(',')->capture_default_str()->type_name("N,N...");
+    verb.add_option("--n", options.n, what).separated_by(',').show_default().type_name("N,N...");
   }
-  static void add_chance(CLI::App& verb, LabOptions& options, double limit) {
+  static void add_chance(Verb& verb, LabOptions& options, double limit) {
     options.limit = limit;
-    verb.add_option("--seed", options.seed, "Another seed gives other terrains")->capture_default_str()->type_name("N");
+    verb.add_option("--seed", options.seed, "Another seed gives other terrains").show_default().type_name("N");
     verb.add_option("--limit", options.limit, "Seconds for one terrain; what takes longer is counted as late")
-        ->capture_default_str()
-        ->check(CLI::PositiveNumber)
-        ->type_name("SECONDS");
+        .show_default()
+        .positive()
+        .type_name("SECONDS");
   }
 };
 
 void add_constructions(Menu& menu) {
   Session& session = menu.session;
   auto bound = std::make_shared<LabOptions>();
-  CLI::App* verb = menu.add("lower-bound", "Section 4.3: grooves and needles, a number of vertices that grows as n^2",
-                            bound, [bound, &session] {
-                              return run(*bound, session, [&] {
-                                return lab::lower_bound_experiment(bound->n, session.context("computing"));
-                              });
-                            });
-  Menu::add_sizes(*verb, *bound, {32, 64, 128, 256}, "Grooves and needles together, multiples of 4");
+  Verb verb = menu.add("lower-bound", "Section 4.3: grooves and needles, a number of vertices that grows as n^2",
+                       bound, [bound, &session] {
+                         return run(*bound, session, [&] {
+                           return lab::lower_bound_experiment(bound->n, session.context("computing"));
+                         });
+                       });
+  Menu::add_sizes(verb, *bound, {32, 64, 128, 256}, "Grooves and needles together, multiples of 4");
   auto profiles = std::make_shared<LabOptions>();
   verb = menu.add("profiles", "Section 2.3: 2D terrains with 2n + 2 vertices, n - 1 explicit ones, and 3", profiles,
                   [profiles, &session] {
                     return run(*profiles, session,
                                [&] { return lab::profiles_experiment(profiles->n, session.context("computing")); });
                   });
-  Menu::add_sizes(*verb, *profiles, {8, 100, 1000, 10000, 100000}, "Segments");
+  Menu::add_sizes(verb, *profiles, {8, 100, 1000, 10000, 100000}, "Segments");
   auto sweep = std::make_shared<LabOptions>();
   verb = menu.add("sweep", "Section 3.3, figure 3.6: crossings that a sweep over cigars meets", sweep, [sweep, &session] {
     return run(*sweep, session, [&] { return lab::sweep_experiment(sweep->n, session.context("computing")); });
   });
-  Menu::add_sizes(*verb, *sweep, {12, 50, 100, 200, 400, 800}, "Reaches of the sub-river");
+  Menu::add_sizes(verb, *sweep, {12, 50, 100, 200, 400, 800}, "Reaches of the sub-river");
   auto spheres = std::make_shared<LabOptions>();
   menu.add("pseudospheres", "Figure 4.5: three triangles that four balls touch", spheres, [spheres, &session] {
     return run(*spheres, session, [&] { return lab::pseudospheres_experiment(session.context("computing")); });
@@ -152,16 +151,16 @@ void add_constructions(Menu& menu) {
 void add_experiments(Menu& menu) {
   Session& session = menu.session;
   auto table = std::make_shared<LabOptions>();
-  CLI::App* verb = menu.add("conjecture", "Conjecture 4.5.6: vertices of random terrains against n lambda_2(n)", table,
-                            [table, &session] {
-                              return run(*table, session, [&] {
-                                return lab::conjecture_experiment({table->count, table->n, table->seed, table->limit},
-                                                                  session.context("computing"));
-                              });
-                            });
-  Menu::add_sizes(*verb, *table, {8, 16, 32, 64, 128}, "Triangles");
-  Menu::add_chance(*verb, *table, 60);
-  verb->add_option("--count", table->count, "Terrains in all")->capture_default_str()->type_name("N");
+  Verb verb = menu.add("conjecture", "Conjecture 4.5.6: vertices of random terrains against n lambda_2(n)", table,
+                       [table, &session] {
+                         return run(*table, session, [&] {
+                           return lab::conjecture_experiment({table->count, table->n, table->seed, table->limit},
+                                                             session.context("computing"));
+                         });
+                       });
+  Menu::add_sizes(verb, *table, {8, 16, 32, 64, 128}, "Triangles");
+  Menu::add_chance(verb, *table, 60);
+  verb.add_option("--count", table->count, "Terrains in all").show_default().type_name("N");
   auto search = std::make_shared<LabOptions>();
   verb = menu.add(
       "search", "Conjecture 4.5.6: terrains changed step by step to have more vertices", search, [search, &session] {
@@ -170,34 +169,33 @@ void add_experiments(Menu& menu) {
                                         session.context("climbing"));
         });
       });
-  Menu::add_sizes(*verb, *search, {4, 8, 16}, "Triangles");
-  Menu::add_chance(*verb, *search, 10);
-  verb->add_option("--steps", search->steps, "Changes tried from each start")->capture_default_str()->type_name("N");
-  verb->add_option("--restarts", search->restarts, "Starts of each family and size")
-      ->capture_default_str()
-      ->type_name("N");
+  Menu::add_sizes(verb, *search, {4, 8, 16}, "Triangles");
+  Menu::add_chance(verb, *search, 10);
+  verb.add_option("--steps", search->steps, "Changes tried from each start").show_default().type_name("N");
+  verb.add_option("--restarts", search->restarts, "Starts of each family and size")
+      .show_default()
+      .type_name("N");
   auto real = std::make_shared<LabOptions>();
   verb = menu.add("real", "Parts of an elevation model: vertices against triangles", real,
                   [real, &session] { return run_real(*real, session); });
-  add_terrain_options(*verb, real->terrain);
-  verb->add_option("--radius", real->radius, "Radii of the ball, in the unit of the coordinates")
-      ->required()
-      ->type_name("R[,R2,...]");
+  add_terrain_options(verb, real->terrain);
+  verb.add_option("--radius", real->radius, "Radii of the ball, in the unit of the coordinates")
+      .required()
+      .type_name("R[,R2,...]");
 }
 
 }  // namespace
 
-void add_lab_verb(CLI::App& program, Session& session) {
-  CLI::App* verb = program.add_subcommand("lab", "The thesis's constructions and experiments");
-  verb->require_subcommand(1);
-  Menu menu{*verb, session};
+void add_lab_verb(Verb& program, Session& session) {
+  Verb verb = program.add_verb("lab", "The thesis's constructions and experiments");
+  verb.require_verb();
+  Menu menu{verb, session};
   add_constructions(menu);
   add_experiments(menu);
-  CLI::App* list = verb->add_subcommand("list", "The names of all experiments");
-  session.on_run(*list, [verb, &session] {
-    for (const CLI::App* each : verb->get_subcommands([](const CLI::App*) { return true; })) {
-      if (each->get_name() != "list")
-        session.summary(fmt::format("{:<14} {}", each->get_name(), each->get_description()));
+  Verb list = verb.add_verb("list", "The names of all experiments");
+  session.on_run(list, [verb, &session] {
+    for (const Verb::Entry& each : verb.verbs()) {
+      if (each.name != "list") session.summary(fmt::format("{:<14} {}", each.name, each.what));
     }
     return 0;
   });

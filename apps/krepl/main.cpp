@@ -1,75 +1,27 @@
-#include <CLI/CLI.hpp>
-#include <cstdio>
 #include <new>
-#include <string>
 
+#include "command_line.hpp"
 #include "verbs.hpp"
 
 namespace {
 
-constexpr int usage_status = 2;
+using namespace krepl::app;
 
-void describe(CLI::App& program) {
-  program.set_version_flag("--version", "krepl " KREPL_VERSION);
-  program.require_subcommand(1);
-  program.get_formatter()->column_width(34);
-  program.failure_message(CLI::FailureMessage::simple);
-}
-
-/// After the verbs were added: they would repeat it.
-void add_footer(CLI::App& program) {
-  program.footer(
-      "`-` is standard input or output where the format is text. Exit status: 0 done, 1 bad input or a failed\n"
-      "computation, 2 wrong usage, 130 interrupted. `krepl VERB --help` explains a verb.");
-}
-
-/// The verb that the command line got to before parsing stopped: the one whose help is of use.
-std::string help_command(const CLI::App& program) {
-  std::string command = "krepl";
-  for (const CLI::App* verb : program.get_subcommands()) command += " " + verb->get_name();
-  return command + " --help";
-}
-
-int usage_error(const CLI::App& program, const CLI::ParseError& error) {
-  std::string what = error.what();
-  if (program.get_subcommands().empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
-    what = "no verb given";
-  }
-  std::fprintf(stderr, "krepl: %s; see `%s`\n", what.c_str(), help_command(program).c_str());
-  return usage_status;
+/// In the order in which the help lists them.
+void declare_verbs(Verb& program, Session& session) {
+  for (void (*add)(Verb&, Session&) :
+       {add_buffer_verb, add_axis_verb, add_rivers_verb, add_offset_verb, add_profile_verb, add_simulate_verb,
+        add_terrain_verb, add_height_verb, add_free_verb, add_contour_verb, add_section_verb, add_mill_verb, add_route_verb,
+        add_verify_verb, add_info_verb, add_view_verb, add_lab_verb})
+    add(program, session);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App program{"Exact Minkowski sums with a ball: buffer zones with true arcs, offset profiles and surfaces", "krepl"};
-  krepl::app::Session session;
-  describe(program);
-  krepl::app::add_buffer_verb(program, session);
-  krepl::app::add_axis_verb(program, session);
-  krepl::app::add_rivers_verb(program, session);
-  krepl::app::add_offset_verb(program, session);
-  krepl::app::add_profile_verb(program, session);
-  krepl::app::add_simulate_verb(program, session);
-  krepl::app::add_terrain_verb(program, session);
-  krepl::app::add_height_verb(program, session);
-  krepl::app::add_free_verb(program, session);
-  krepl::app::add_contour_verb(program, session);
-  krepl::app::add_section_verb(program, session);
-  krepl::app::add_mill_verb(program, session);
-  krepl::app::add_route_verb(program, session);
-  krepl::app::add_verify_verb(program, session);
-  krepl::app::add_info_verb(program, session);
-  krepl::app::add_view_verb(program, session);
-  krepl::app::add_lab_verb(program, session);
-  add_footer(program);
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::Success& request) {  // --help, --version
-    return program.exit(request);
-  } catch (const CLI::ParseError& error) {
-    return usage_error(program, error);
-  }
+  Session session;
+  const Parsed parsed = parse_command_line(argc, argv, [&](Verb& program) { declare_verbs(program, session); });
+  if (parsed.finished) return parsed.status;
   try {
     return session.run();
   } catch (const std::bad_alloc&) {

@@ -1,7 +1,6 @@
 // krepl mill: tool paths as G-code.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -347,82 +346,82 @@ int run_mill(const MillVerbOptions& options, Session& session) {
   return 0;
 }
 
-void add_path_options(CLI::App& verb, MillVerbOptions& o) {
-  verb.add_option("--tool", o.tool, "Cutter: ball:D; for parallel and waterline also flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE, taper:D:ANGLE:TIP_RADIUS")->required()->type_name("KIND:SIZE");
+void add_path_options(Verb& verb, MillVerbOptions& o) {
+  verb.add_option("--tool", o.tool, "Cutter: ball:D; for parallel and waterline also flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE, taper:D:ANGLE:TIP_RADIUS").required().type_name("KIND:SIZE");
   verb.add_option("--strategy", o.strategy,
                   "parallel (default): passes in vertical planes; rough: out of a block, level by level; waterline: around the "
                   "part, level by level; pencil: along the valleys and the feet of walls; scallop: all over, at constant distances "
                   "on the surface from valleys and border; rest: such passes where a larger ball has left something")
-      ->type_name("NAME");
-  verb.add_option("--step-over", o.step_over, "Distance of passes")->type_name("LENGTH");
+      .type_name("NAME");
+  verb.add_option("--step-over", o.step_over, "Distance of passes").type_name("LENGTH");
   verb.add_option("--scallop", o.scallop, "Greatest height of what is left between passes; parallel: instead of --step-over")
-      ->type_name("LENGTH");
+      .type_name("LENGTH");
   verb.add_option("--angle", o.angle, "Direction of passes, degrees from the x axis (default: 0)")
-      ->type_name("DEGREES");
-  verb.add_option("--direction", o.direction, "parallel: zigzag (default) or one-way; waterline: climb (default) or conventional")->type_name("NAME");
+      .type_name("DEGREES");
+  verb.add_option("--direction", o.direction, "parallel: zigzag (default) or one-way; waterline: climb (default) or conventional").type_name("NAME");
   verb.add_option("--tolerance", o.tolerance,
                   "Greatest distance of the path above the exact one; it is never below (default: 0.01 mm, 0.0004 in)")
-      ->type_name("LENGTH");
-  verb.add_option("--allowance", o.allowance, "Stock to leave (default: none)")->type_name("LENGTH");
+      .type_name("LENGTH");
+  verb.add_option("--allowance", o.allowance, "Stock to leave (default: none)").type_name("LENGTH");
   verb.add_option("--bottom", o.bottom,
                   "Lowest Z of the tip; passes go there beside the part (default: the part's lowest place)")
-      ->type_name("Z");
-  verb.add_option("--step-down", o.step_down, "rough, waterline: greatest distance of levels")->type_name("LENGTH");
+      .type_name("Z");
+  verb.add_option("--step-down", o.step_down, "rough, waterline: greatest distance of levels").type_name("LENGTH");
   verb.add_option("--steep", o.steep, "waterline: only where the surface is at least so steep (default: everywhere)")
-      ->type_name("DEGREES");
+      .type_name("DEGREES");
   verb.add_option("--shallow", o.shallow,
                   "parallel: only where the surface is less steep, and a step-over beyond (default: everywhere)")
-      ->type_name("DEGREES");
+      .type_name("DEGREES");
   verb.add_option("--boundary", o.boundary,
                   "parallel, waterline: the tool's axis stays within the polygons of this vector file")
-      ->type_name("FILE");
-  verb.add_option("--after", o.after, "rest: the larger tool that has been there before: ball:DIAMETER")->type_name("KIND:SIZE");
-  verb.add_option("--threshold", o.threshold, "rest: what that may have left (default: the scallop)")->type_name("LENGTH");
+      .type_name("FILE");
+  verb.add_option("--after", o.after, "rest: the larger tool that has been there before: ball:DIAMETER").type_name("KIND:SIZE");
+  verb.add_option("--threshold", o.threshold, "rest: what that may have left (default: the scallop)").type_name("LENGTH");
   verb.add_option("--valley-angle", o.valley_angle,
                   "pencil, scallop, rest: least angle between the normals of a valley's sides (default: 20)")
-      ->type_name("DEGREES");
+      .type_name("DEGREES");
   verb.add_option("--shortest", o.shortest, "pencil: valleys shorter than that are left out (default: the tool's radius)")
-      ->type_name("LENGTH");
+      .type_name("LENGTH");
   verb.add_option("--ramp-angle", o.ramp_angle, "rough: steepest way down into the stock (default: 3)")
-      ->type_name("DEGREES");
-  verb.add_option("--stock-top", o.stock_top, "rough: top of the block (default: the part's)")->type_name("Z");
+      .type_name("DEGREES");
+  verb.add_option("--stock-top", o.stock_top, "rough: top of the block (default: the part's)").type_name("Z");
   verb.add_option("--stock-margin", o.stock_margin,
                   "rough: by how much the block is larger than the part on all sides (default: 0)")
-      ->type_name("LENGTH");
+      .type_name("LENGTH");
   verb.add_flag("--no-arcs", o.no_arcs, "Lines only");
 }
 
-void add_post_options(CLI::App& verb, MillVerbOptions& o) {
-  verb.add_option("--feed", o.feed, "Units a minute (default: 1000 mm, 40 in)")->type_name("F");
-  verb.add_option("--plunge-feed", o.plunge_feed, "Downwards (default: a third of the feed)")->type_name("F");
+void add_post_options(Verb& verb, MillVerbOptions& o) {
+  verb.add_option("--feed", o.feed, "Units a minute (default: 1000 mm, 40 in)").type_name("F");
+  verb.add_option("--plunge-feed", o.plunge_feed, "Downwards (default: a third of the feed)").type_name("F");
   verb.add_option("--spindle", o.spindle, "Revolutions a minute (default: the program leaves the spindle alone)")
-      ->type_name("S");
+      .type_name("S");
   verb.add_option("--safe-height", o.safe_height, "Z at the start and at the end (default: a radius above everything)")
-      ->type_name("Z");
+      .type_name("Z");
   verb.add_option("--clearance", o.clearance, "Of rapid moves above the part (default: half the tool's radius)")
-      ->type_name("LENGTH");
-  verb.add_option("--post", o.post, "Controller: linuxcnc (default) or grbl")->type_name("NAME");
+      .type_name("LENGTH");
+  verb.add_option("--post", o.post, "Controller: linuxcnc (default) or grbl").type_name("NAME");
   verb.add_option("--unit", o.unit, "Unit of the part's coordinates and of the program: mm (default) or in")
-      ->type_name("UNIT");
+      .type_name("UNIT");
   verb.add_option("--decimals", o.decimals, "Of coordinates (default: 4 for mm, 5 for inches)")
-      ->check(CLI::Range(0, output::most_decimals))
-      ->type_name("N");
+      .within(0, output::most_decimals)
+      .type_name("N");
   verb.add_option("--control-point", o.control_point, "What Z is the height of: tip (default) or centre of the ball")
-      ->type_name("NAME");
-  verb.add_option("--tool-number", o.tool_number, "T word (default: 1)")->check(CLI::Range(1, 99999))->type_name("N");
+      .type_name("NAME");
+  verb.add_option("--tool-number", o.tool_number, "T word (default: 1)").within(1, 99999).type_name("N");
 }
 
 }  // namespace
 
-void add_mill_verb(CLI::App& program, Session& session) {
+void add_mill_verb(Verb& program, Session& session) {
   auto options = std::make_shared<MillVerbOptions>();
-  CLI::App* verb = program.add_subcommand("mill", "Tool paths that never cut into the part, as G-code");
-  add_terrain_options(*verb, options->terrain);
-  verb->add_option("OUT", options->output, "Result: G-code, or -")->required();
-  add_path_options(*verb, *options);
-  add_post_options(*verb, *options);
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_mill(*options, session); });
+  Verb verb = program.add_verb("mill", "Tool paths that never cut into the part, as G-code");
+  add_terrain_options(verb, options->terrain);
+  verb.add_option("OUT", options->output, "Result: G-code, or -").required();
+  add_path_options(verb, *options);
+  add_post_options(verb, *options);
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_mill(*options, session); });
 }
 
 }  // namespace krepl::app

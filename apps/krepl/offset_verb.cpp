@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 
@@ -86,27 +85,27 @@ int run_offset(const OffsetVerbOptions& options, Session& session) {
 
 }  // namespace
 
-void add_offset_verb(CLI::App& program, Session& session) {
+void add_offset_verb(Verb& program, Session& session) {
   auto options = std::make_shared<OffsetVerbOptions>();
-  CLI::App* verb = program.add_subcommand(
+  Verb verb = program.add_verb(
       "offset", "Parallel curves of lines and polygon borders at signed distances, as true arcs");
-  verb->add_option("IN", options->input.path,
-                   "Vector file: any OGR format, .wkt (a geometry a line), .wkb, .gz of them, or -")
-      ->required();
-  verb->add_option("OUT", options->output,
-                   "Result: .gpkg .fgb .wkt .wkb (curves), .svg .dxf (arcs), .geojson .shp ... (chords), or -")
-      ->required();
-  verb->add_option(
+  verb.add_option("IN", options->input.path,
+                  "Vector file: any OGR format, .wkt (a geometry a line), .wkb, .gz of them, or -")
+      .required();
+  verb.add_option("OUT", options->output,
+                  "Result: .gpkg .fgb .wkt .wkb (curves), .svg .dxf (arcs), .geojson .shp ... (chords), or -")
+      .required();
+  verb.add_option(
           "--distance", options->distance,
           "Above zero: left of lines, outwards from polygons; below: right, inwards; in the unit of the coordinates")
-      ->required()
-      ->type_name("D[,D2,...]");
-  add_network_options(*verb, options->input, options->format);
-  verb->add_option("--max-error", options->max_error,
-                   "Formats without arcs: largest deviation (default: distance / 1000)")
-      ->type_name("LENGTH");
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_offset(*options, session); });
+      .required()
+      .type_name("D[,D2,...]");
+  add_network_options(verb, options->input, options->format);
+  verb.add_option("--max-error", options->max_error,
+                  "Formats without arcs: largest deviation (default: distance / 1000)")
+      .type_name("LENGTH");
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_offset(*options, session); });
 }
 
 }  // namespace krepl::app

@@ -1,7 +1,6 @@
 // krepl profile: 2D terrain (+) disk.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "input/geometry_source.hpp"
@@ -84,21 +83,21 @@ int run_profile(const ProfileOptions& options, Session& session) {
 
 }  // namespace
 
-void add_profile_verb(CLI::App& program, Session& session) {
+void add_profile_verb(Verb& program, Session& session) {
   auto options = std::make_shared<ProfileOptions>();
-  CLI::App* verb = program.add_subcommand("profile", "Path of a disk's centre over a 2D terrain, bounded by true arcs");
-  verb->add_option("IN", options->input.path, "Terrain: .csv with columns x and z, a line in a vector file, or - (CSV)")
-      ->required();
-  verb->add_option("OUT", options->output, "Result: .csv (a row a piece), .svg, or - (CSV)")->required();
-  verb->add_option("--radius", options->radius, "Radius of the disk, in the unit of the coordinates")
-      ->required()->type_name("R");
-  verb->add_option("--layer", options->input.layer, "Vector files: layer to read")->type_name("NAME");
-  verb->add_option("--where", options->input.where, "Vector files: the feature to read, as SQL: \"id = 7\"")
-      ->type_name("CONDITION");
-  verb->add_option("--format", options->format, "Format of the result, csv or svg, in place of what its extension says")
-      ->type_name("NAME");
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_profile(*options, session); });
+  Verb verb = program.add_verb("profile", "Path of a disk's centre over a 2D terrain, bounded by true arcs");
+  verb.add_option("IN", options->input.path, "Terrain: .csv with columns x and z, a line in a vector file, or - (CSV)")
+      .required();
+  verb.add_option("OUT", options->output, "Result: .csv (a row a piece), .svg, or - (CSV)").required();
+  verb.add_option("--radius", options->radius, "Radius of the disk, in the unit of the coordinates")
+      .required().type_name("R");
+  verb.add_option("--layer", options->input.layer, "Vector files: layer to read").type_name("NAME");
+  verb.add_option("--where", options->input.where, "Vector files: the feature to read, as SQL: \"id = 7\"")
+      .type_name("CONDITION");
+  verb.add_option("--format", options->format, "Format of the result, csv or svg, in place of what its extension says")
+      .type_name("NAME");
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_profile(*options, session); });
 }
 
 }  // namespace krepl::app

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <numeric>
 
@@ -269,40 +268,39 @@ int run_rivers(const RiversOptions& options, Session& session) {
 
 }  // namespace
 
-void add_rivers_verb(CLI::App& program, Session& session) {
+void add_rivers_verb(Verb& program, Session& session) {
   auto options = std::make_shared<RiversOptions>();
-  CLI::App* verb = program.add_subcommand(
+  Verb verb = program.add_verb(
       "rivers", "Rivers taken apart into sub-rivers from source to drain, with orders and main stems; zones of them");
-  verb->add_option("IN", options->input.path, "Vector file of lines: any OGR format, .wkt, .wkb, .gz of them, or -")
-      ->required();
-  verb->add_option("OUT", options->output,
-                   "Sub-rivers (or zones): .gpkg .fgb .geojson .shp .csv ..., .wkt .wkb .svg, or -")
-      ->required();
-  verb->add_option("--outlet", options->outlets,
-                   "Water runs to the vertex nearest to here, or to a guessed end, not the way lines were digitised; "
-                   "may be repeated")
-      ->type_name("X,Y|guess")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  verb->add_option("--flow-field", options->flow_field,
-                   "Field that says whether a line was digitised with the water (1, with) or against it (-1, against)")
-      ->type_name("NAME");
-  verb->add_option("--snap", options->snap, "Free ends of lines this near to another line are moved to it")
-      ->type_name("LENGTH");
-  verb->add_option("--grid", options->grid,
-                   "Vertices and crossings are rounded to a grid of this pitch at most (default: finest)")
-      ->type_name("LENGTH");
-  verb->add_flag("--reaches", options->reaches, "A line for each reach from node to node, not for each sub-river");
-  verb->add_option("--radius", options->radius, "Write zones of this radius in place of lines")->type_name("R");
-  verb->add_option("--zones", options->zones,
-                   "A zone for each sub-river (default), each main stem with its tributaries, or the whole")
-      ->type_name("sub-river|stem|whole");
-  add_network_options(*verb, options->input, options->format);
-  verb->add_option("--max-error", options->max_error,
-                   "Zones in formats without arcs: largest deviation (default: radius / 1000)")
-      ->type_name("LENGTH");
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_rivers(*options, session); });
+  verb.add_option("IN", options->input.path, "Vector file of lines: any OGR format, .wkt, .wkb, .gz of them, or -")
+      .required();
+  verb.add_option("OUT", options->output,
+                  "Sub-rivers (or zones): .gpkg .fgb .geojson .shp .csv ..., .wkt .wkb .svg, or -")
+      .required();
+  verb.add_option("--outlet", options->outlets,
+                  "Water runs to the vertex nearest to here, or to a guessed end, not the way lines were digitised; "
+                  "may be repeated")
+      .type_name("X,Y|guess")
+      .one_each();
+  verb.add_option("--flow-field", options->flow_field,
+                  "Field that says whether a line was digitised with the water (1, with) or against it (-1, against)")
+      .type_name("NAME");
+  verb.add_option("--snap", options->snap, "Free ends of lines this near to another line are moved to it")
+      .type_name("LENGTH");
+  verb.add_option("--grid", options->grid,
+                  "Vertices and crossings are rounded to a grid of this pitch at most (default: finest)")
+      .type_name("LENGTH");
+  verb.add_flag("--reaches", options->reaches, "A line for each reach from node to node, not for each sub-river");
+  verb.add_option("--radius", options->radius, "Write zones of this radius in place of lines").type_name("R");
+  verb.add_option("--zones", options->zones,
+                  "A zone for each sub-river (default), each main stem with its tributaries, or the whole")
+      .type_name("sub-river|stem|whole");
+  add_network_options(verb, options->input, options->format);
+  verb.add_option("--max-error", options->max_error,
+                  "Zones in formats without arcs: largest deviation (default: radius / 1000)")
+      .type_name("LENGTH");
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_rivers(*options, session); });
 }
 
 }  // namespace krepl::app

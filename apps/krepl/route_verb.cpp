@@ -1,7 +1,6 @@
 // krepl route: collision-free ways of a disk among obstacles, and of a ball over a terrain.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 
@@ -152,66 +151,66 @@ Result<std::vector<double>> parse_place(std::string_view option, std::string_vie
 
 namespace {
 
-void add_plane_options(CLI::App& verb, RouteVerbOptions& options) {
+void add_plane_options(Verb& verb, RouteVerbOptions& options) {
   verb.add_option(
           "--prefer", options.prefer,
           "Plane: length, the shortest route (default); clearance, the widest along the medial axis; W in 0 .. 1, the "
           "shortest with clearance of at least R + W (widest - R)")
-      ->type_name("WHAT");
+      .type_name("WHAT");
   verb.add_option(
           "--max-error", options.max_error,
           "Plane: largest deviation of chords where a format has no arcs, and for parabolas (default: R / 1000)")
-      ->type_name("LENGTH");
+      .type_name("LENGTH");
 }
 
-void add_flight_options(CLI::App& verb, RouteVerbOptions& options) {
+void add_flight_options(Verb& verb, RouteVerbOptions& options) {
   verb.add_option("--ceiling", options.ceiling, "Terrain: the ball's centre stays at or below this height")
-      ->type_name("Z");
+      .type_name("Z");
   verb.add_option("--max-slope", options.max_slope,
                   "Terrain: largest rise over horizontal way, up and down: 0.2 is 20 %")
-      ->type_name("SLOPE");
+      .type_name("SLOPE");
   verb.add_option("--minimise", options.minimise, "Terrain: length (default) or climb, the sum of all rises")
-      ->type_name("WHAT");
+      .type_name("WHAT");
   verb.add_option("--step", options.step, "Terrain: distance of the lattice that is searched (default: by the extent)")
-      ->type_name("LENGTH");
+      .type_name("LENGTH");
   verb.add_option("--z-scale", options.terrain.z_scale, "Terrain: multiply heights by this number (default: 1)")
-      ->type_name("FACTOR");
+      .type_name("FACTOR");
   verb.add_option("--split", options.terrain.split,
                   "Raster: diagonal that splits a cell: rising (default), falling, shorter")
-      ->type_name("NAME");
+      .type_name("NAME");
   verb.add_option("--band", options.terrain.request.band, "Raster: band to read (default: 1)")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      .type_name("N")
+      .positive();
 }
 
 }  // namespace
 
-void add_route_verb(CLI::App& program, Session& session) {
+void add_route_verb(Verb& program, Session& session) {
   auto options = std::make_shared<RouteVerbOptions>();
-  CLI::App* verb = program.add_subcommand(
+  Verb verb = program.add_verb(
       "route", "Collision-free route of a disk among lines, polygons and points, or of a ball over a terrain");
-  verb->add_option(
+  verb.add_option(
           "IN", options->input.path,
           "Obstacles: any OGR vector format, .wkt (a geometry a line), .wkb, .gz of them, or -; or a terrain: any "
           "GDAL raster, .stl .obj .ply .off")
-      ->required();
-  verb->add_option(
+      .required();
+  verb.add_option(
           "OUT", options->output,
           "Result: .gpkg .fgb .wkt .wkb (curves), .dxf (arcs), .svg (picture), .csv (pieces or points), .geojson "
           ".shp ... (chords), or -")
-      ->required();
-  verb->add_option("--radius", options->radius, "Radius of the disk or ball, in the unit of the coordinates")
-      ->required()
-      ->type_name("R");
-  verb->add_option("--from", options->from, "Where the centre starts; over a terrain without Z: resting on it")
-      ->required()
-      ->type_name("X,Y[,Z]");
-  verb->add_option("--to", options->to, "Where the centre arrives, likewise")->required()->type_name("X,Y[,Z]");
-  add_plane_options(*verb, *options);
-  add_flight_options(*verb, *options);
-  add_network_options(*verb, options->input, options->format);
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] {
+      .required();
+  verb.add_option("--radius", options->radius, "Radius of the disk or ball, in the unit of the coordinates")
+      .required()
+      .type_name("R");
+  verb.add_option("--from", options->from, "Where the centre starts; over a terrain without Z: resting on it")
+      .required()
+      .type_name("X,Y[,Z]");
+  verb.add_option("--to", options->to, "Where the centre arrives, likewise").required().type_name("X,Y[,Z]");
+  add_plane_options(verb, *options);
+  add_flight_options(verb, *options);
+  add_network_options(verb, options->input, options->format);
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] {
     return is_terrain(options->input.path) ? run_terrain_route(*options, session) : run_plane_route(*options, session);
   });
 }

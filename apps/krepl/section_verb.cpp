@@ -1,7 +1,6 @@
 // krepl section: a surface along lines.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 
 #include "cut_options.hpp"
 #include "stopwatch.hpp"
@@ -77,26 +76,22 @@ int run_section(const SectionVerbOptions& options, Session& session) {
 
 }  // namespace
 
-void add_section_verb(CLI::App& program, Session& session) {
+void add_section_verb(Verb& program, Session& session) {
   auto options = std::make_shared<SectionVerbOptions>();
-  CLI::App* verb = program.add_subcommand("section", "The surface of a ball's centre along lines, of true curves");
-  add_cut_options(*verb, options->cut,
+  Verb verb = program.add_verb("section", "The surface of a ball's centre along lines, of true curves");
+  add_cut_options(verb, options->cut,
                   "Result: .csv (pieces), .gpkg .geojson .shp ... (lines in space), .wkt, .svg .dxf (distance and "
                   "height), or - (CSV)");
-  verb->add_option("--from", options->from, "Start of a line; once for each")
-      ->required()
-      ->type_name("X,Y")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  verb->add_option("--to", options->to, "End of a line; once for each")
-      ->required()
-      ->type_name("X,Y")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_section(*options, session); });
+  verb.add_option("--from", options->from, "Start of a line; once for each")
+      .required()
+      .type_name("X,Y")
+      .one_each();
+  verb.add_option("--to", options->to, "End of a line; once for each")
+      .required()
+      .type_name("X,Y")
+      .one_each();
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_section(*options, session); });
 }
 
 }  // namespace krepl::app

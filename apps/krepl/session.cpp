@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -14,15 +13,15 @@ namespace krepl::app {
 Session::Session() : interrupted_(watch_for_interrupts()), terminal_(isatty(STDERR_FILENO) != 0) {}
 Session::~Session() { finish_progress(); }
 
-void Session::add_common_options(CLI::App& verb) {
+void Session::add_common_options(Verb& verb) {
   verb.add_option("--threads", threads, "Number of threads (default: all that the machine has)")
-      ->check(CLI::Range(1u, 4096u))->type_name("N");
-  auto* q = verb.add_flag("--quiet", quiet, "Print errors only");
-  verb.add_flag("--verbose", verbose, "Print counters, what cleaning changed, and times")->excludes(q);
+      .within(1, 4096).type_name("N");
+  Option q = verb.add_flag("--quiet", quiet, "Print errors only");
+  verb.add_flag("--verbose", verbose, "Print counters, what cleaning changed, and times").excludes(q);
 }
 
-void Session::on_run(CLI::App& verb, std::function<int()> work) {
-  verb.callback([this, work = std::move(work)] { work_ = work; });
+void Session::on_run(Verb& verb, std::function<int()> work) {
+  verb.on_parsed([this, work = std::move(work)] { work_ = work; });
 }
 
 int Session::run() {

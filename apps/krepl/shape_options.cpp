@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <optional>
@@ -74,12 +73,12 @@ void tell(const Zone& zone, double seconds, Session& session) {
 
 }  // namespace
 
-void add_shape_options(CLI::App& verb, ShapeArguments& shape) {
-  verb.add_option("--cap", shape.cap, "Ends of lines: round, flat, square")->type_name("NAME");
-  verb.add_option("--join", shape.join, "Outer sides of bends: round, mitre, bevel")->type_name("NAME");
+void add_shape_options(Verb& verb, ShapeArguments& shape) {
+  verb.add_option("--cap", shape.cap, "Ends of lines: round, flat, square").type_name("NAME");
+  verb.add_option("--join", shape.join, "Outer sides of bends: round, mitre, bevel").type_name("NAME");
   verb.add_option("--mitre-limit", shape.mitre_limit, "Longest mitre, in radii from its corner (default: 5)")
-      ->type_name("RATIO");
-  verb.add_option("--side", shape.side, "Zone on one side of lines only: both, left, right")->type_name("NAME");
+      .type_name("RATIO");
+  verb.add_option("--side", shape.side, "Zone on one side of lines only: both, left, right").type_name("NAME");
   verb.add_flag("--ring", shape.ring,
                 "Zone without the polygons of the input; negative radius: what shrinking takes off");
 }

@@ -8,10 +8,6 @@
 #include "krepl/shape.hpp"
 #include "verbs.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace krepl::app {
 
 /// The options about a zone's shape as they were typed.
@@ -21,7 +17,7 @@ struct ShapeArguments {
 };
 
 /// Declares --cap, --join, --mitre-limit, --side and --ring. What is given must live until the verb has run.
-void add_shape_options(CLI::App& verb, ShapeArguments& shape);
+void add_shape_options(Verb& verb, ShapeArguments& shape);
 
 /// The options but for the distance. Errors of code usage.
 Result<ShapeOptions> parse_shape(const ShapeArguments& shape);

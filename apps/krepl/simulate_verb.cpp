@@ -1,7 +1,6 @@
 // krepl simulate: what a tool path leaves of a block of material, compared with the part.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "krepl/simulation.hpp"
@@ -120,25 +119,25 @@ int run_simulate(const SimulateOptions& options, Session& session) {
 
 }  // namespace
 
-void add_simulate_verb(CLI::App& program, Session& session) {
+void add_simulate_verb(Verb& program, Session& session) {
   auto options = std::make_shared<SimulateOptions>();
-  CLI::App* verb = program.add_subcommand(
+  Verb verb = program.add_verb(
       "simulate", "What a tool path leaves of a block of material: gouges, rest, rapids that cut");
-  verb->add_option("PATH", options->program.path, "Tool path: G-code (.ngc, .nc, .gcode), or -")->required();
-  add_terrain_options(*verb, options->terrain, "--against");
-  verb->add_option("--tool", options->program.tool,
-                   "Cutter: ball:D, flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE or taper:D:ANGLE:TIP_RADIUS")
-      ->required()
-      ->type_name("TOOL");
-  add_program_options(*verb, options->program, "a fortieth of the tool's diameter");
-  verb->add_option("--max-rest", options->rest, "Fail if more material than this is left anywhere above the part")
-      ->type_name("H");
-  verb->add_option("-o,--output", options->output, "Result: .tif (heights, rest, gouges) or .png (relief)")
-      ->type_name("OUT");
-  verb->add_option("--format", options->format, "Format of the result, in place of its extension: tif, png")
-      ->type_name("NAME");
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_simulate(*options, session); });
+  verb.add_option("PATH", options->program.path, "Tool path: G-code (.ngc, .nc, .gcode), or -").required();
+  add_terrain_options(verb, options->terrain, "--against");
+  verb.add_option("--tool", options->program.tool,
+                  "Cutter: ball:D, flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE or taper:D:ANGLE:TIP_RADIUS")
+      .required()
+      .type_name("TOOL");
+  add_program_options(verb, options->program, "a fortieth of the tool's diameter");
+  verb.add_option("--max-rest", options->rest, "Fail if more material than this is left anywhere above the part")
+      .type_name("H");
+  verb.add_option("-o,--output", options->output, "Result: .tif (heights, rest, gouges) or .png (relief)")
+      .type_name("OUT");
+  verb.add_option("--format", options->format, "Format of the result, in place of its extension: tif, png")
+      .type_name("NAME");
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_simulate(*options, session); });
 }
 
 }  // namespace krepl::app

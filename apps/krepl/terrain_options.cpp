@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 
@@ -33,22 +32,22 @@ Result<Terrain::Split> parse_split(const std::string& text) {
 
 std::string TerrainOptions::name() const { return input_name(request.path); }
 
-void add_terrain_options(CLI::App& verb, TerrainOptions& options, const std::string& name) {
-  CLI::Option* in = verb.add_option(name, options.request.path,
-                                    "Terrain or part: any GDAL raster, .stl .obj .ply .off, .gz of them, or -")
-                        ->required();
-  if (name != "IN") in->type_name("IN");
+void add_terrain_options(Verb& verb, TerrainOptions& options, const std::string& name) {
+  Option in = verb.add_option(name, options.request.path,
+                              "Terrain or part: any GDAL raster, .stl .obj .ply .off, .gz of them, or -")
+                  .required();
+  if (name != "IN") in.type_name("IN");
   verb.add_option("--crs", options.request.crs, "Coordinate system of the data, in place of what the file says")
-      ->type_name("EPSG:n");
+      .type_name("EPSG:n");
   verb.add_option("--to-crs", options.request.to_crs,
                   "Raster: plane coordinate system to resample the heights to; auto chooses one")
-      ->type_name("EPSG:n|auto");
-  verb.add_option("--z-scale", options.z_scale, "Multiply heights by this number (default: 1)")->type_name("FACTOR");
+      .type_name("EPSG:n|auto");
+  verb.add_option("--z-scale", options.z_scale, "Multiply heights by this number (default: 1)").type_name("FACTOR");
   verb.add_option("--split", options.split, "Raster: diagonal that splits a cell: rising (default), falling, shorter")
-      ->type_name("NAME");
+      .type_name("NAME");
   verb.add_option("--band", options.request.band, "Raster: band to read (default: 1)")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      .type_name("N")
+      .positive();
 }
 
 Result<input::TerrainRequest> terrain_request(const TerrainOptions& options) {

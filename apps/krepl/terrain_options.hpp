@@ -2,12 +2,9 @@
 
 #include <string>
 
+#include "command_line.hpp"
 #include "input/terrain_reader.hpp"
 #include "krepl/error.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace krepl::app {
 
@@ -23,7 +20,7 @@ struct TerrainOptions {
 
 /// Declares IN (or the option `name` in its place) and the options --crs, --to-crs, --z-scale, --split and --band.
 /// `options` must live until the verb has run.
-void add_terrain_options(CLI::App& verb, TerrainOptions& options, const std::string& name = "IN");
+void add_terrain_options(Verb& verb, TerrainOptions& options, const std::string& name = "IN");
 
 /// What the options mean; an Error of code usage names what is wrong. To be called before anything is read.
 Result<input::TerrainRequest> terrain_request(const TerrainOptions& options);

@@ -1,7 +1,6 @@
 // krepl terrain: terrain or part (+) ball.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "krepl/incremental.hpp"
@@ -178,44 +177,44 @@ int run_terrain(const TerrainVerbOptions& options, Session& session) {
   return 0;
 }
 
-void add_output_options(CLI::App& verb, TerrainVerbOptions& options) {
+void add_output_options(Verb& verb, TerrainVerbOptions& options) {
   verb.add_option("--format", options.format, "Format of the result, in place of what its extension says")
-      ->type_name("NAME");
+      .type_name("NAME");
   verb.add_option("--curve-points", options.curve_points, "JSON: points of each edge, ends included (default: 5)")
-      ->check(CLI::Range(3, 1000000))->type_name("N");
+      .within(3, 1000000).type_name("N");
   verb.add_option("--max-error", options.max_error,
-                  "Meshes and GeoPackage: largest deviation from the surface (default: radius / 1000)")->type_name("LENGTH");
+                  "Meshes and GeoPackage: largest deviation from the surface (default: radius / 1000)").type_name("LENGTH");
   verb.add_option("--cell", options.cell,
                   "GeoTIFF: distance of the heights (default: that of the input raster, or extent / 1000)")
-      ->type_name("LENGTH");
+      .type_name("LENGTH");
   verb.add_flag("--solid", options.solid, "STEP: a solid, closed by vertical walls and a floor");
   verb.add_option("--unit", options.unit,
                   "STEP: unit of the coordinates (default: that of the coordinate system, else mm)")
-      ->check(CLI::IsMember({"mm", "cm", "m", "km", "in", "ft"}))
-      ->type_name("UNIT");
+      .one_of({"mm", "cm", "m", "km", "in", "ft"})
+      .type_name("UNIT");
   verb.add_option("--width", options.width, "PNG: columns of the picture (default: 1600)")
-      ->check(CLI::Range(16, 30000))->type_name("N");
+      .within(16, 30000).type_name("N");
   verb.add_option("--engine", options.engine,
                   "Algorithm: auto, or incremental (a second one, to check by, for up to 1000 triangles)")
-      ->type_name("NAME");
+      .type_name("NAME");
 }
 
 }  // namespace
 
-void add_terrain_verb(CLI::App& program, Session& session) {
+void add_terrain_verb(Verb& program, Session& session) {
   auto options = std::make_shared<TerrainVerbOptions>();
-  CLI::App* verb = program.add_subcommand("terrain", "Surface of a ball's centre over a terrain or part, of true patches");
-  add_terrain_options(*verb, options->terrain);
-  verb->add_option(
+  Verb verb = program.add_verb("terrain", "Surface of a ball's centre over a terrain or part, of true patches");
+  add_terrain_options(verb, options->terrain);
+  verb.add_option(
           "OUT", options->output,
           "Result: .json .gpkg (subdivision), .step (faces of CAD), .stl .ply .glb (triangles), .tif (heights), "
           ".png (picture), or - (JSON)")
-      ->required();
-  verb->add_option("--radius", options->radius, "Radius of the ball, in the unit of the coordinates")
-      ->required()->type_name("R");
-  add_output_options(*verb, *options);
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_terrain(*options, session); });
+      .required();
+  verb.add_option("--radius", options->radius, "Radius of the ball, in the unit of the coordinates")
+      .required().type_name("R");
+  add_output_options(verb, *options);
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_terrain(*options, session); });
 }
 
 }  // namespace krepl::app

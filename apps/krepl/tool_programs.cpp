@@ -1,7 +1,6 @@
 // Programs of G-code, their tools and the block that they cut: what simulate and view have in common.
 #include "tool_programs.hpp"
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <tuple>
 
@@ -47,19 +46,19 @@ void lift(ToolPath& path, const Cutter& cutter, bool centre) {
 
 }  // namespace
 
-void add_program_options(CLI::App& verb, ProgramOptions& options, const std::string& cell_default) {
+void add_program_options(Verb& verb, ProgramOptions& options, const std::string& cell_default) {
   verb.add_option("--before", options.before,
-                   "Another path with its tool, to go before PATH in the same block (may be repeated)")
-      ->type_name("PATH,TOOL");
+                  "Another path with its tool, to go before PATH in the same block (may be repeated)")
+      .type_name("PATH,TOOL");
   verb.add_option("--stock", options.stock,
-                   "Block: how far it reaches beyond the part, and the height of its top (default: 0, the part's own)")
-      ->type_name("MARGIN[,TOP]");
+                  "Block: how far it reaches beyond the part, and the height of its top (default: 0, the part's own)")
+      .type_name("MARGIN[,TOP]");
   verb.add_option("--cell", options.cell, "Distance of dexels (default: " + cell_default + ")")
-      ->type_name("D");
-  verb.add_option("--unit", options.unit, "Unit of the part: mm (default), cm, m, inch")->type_name("NAME");
+      .type_name("D");
+  verb.add_option("--unit", options.unit, "Unit of the part: mm (default), cm, m, inch").type_name("NAME");
   verb.add_option("--control-point", options.control_point,
-                   "What the path's coordinates are those of: tip (default) or centre (R above it)")
-      ->type_name("NAME");
+                  "What the path's coordinates are those of: tip (default) or centre (R above it)")
+      .type_name("NAME");
 }
 
 Result<bool> steers_centre(const std::string& control_point) {

@@ -3,14 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "input/gcode_reader.hpp"
 #include "krepl/cutter.hpp"
 #include "krepl/error.hpp"
 #include "krepl/simulation.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace krepl::app {
 
@@ -38,7 +35,7 @@ struct Program {
 };
 
 /// --before, --stock, --cell, --unit, --control-point; `cell_default` is what the help says of a cell that is not given.
-void add_program_options(CLI::App& verb, ProgramOptions& options, const std::string& cell_default);
+void add_program_options(Verb& verb, ProgramOptions& options, const std::string& cell_default);
 
 /// What --control-point says: the centre, else the tip. An error (usage) if it is neither.
 Result<bool> steers_centre(const std::string& control_point);

@@ -6,12 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "command_line.hpp"
 #include "krepl/context.hpp"
 #include "krepl/error.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace krepl::app {
 
@@ -20,12 +17,12 @@ namespace krepl::app {
 /// A verb is added by a function that declares its options, and gives its work to `on_run`; the work starts after the
 /// whole command line has been accepted and returns the exit status:
 ///
-///     void add_thing_verb(CLI::App& program, Session& session) {
+///     void add_thing_verb(Verb& program, Session& session) {
 ///       auto options = std::make_shared<ThingOptions>();
-///       CLI::App* verb = program.add_subcommand("thing", "What it does");
-///       verb->add_option("IN", options->input, "Input file")->required();
-///       session.add_common_options(*verb);
-///       session.on_run(*verb, [options, &session] { return run_thing(*options, session); });
+///       Verb verb = program.add_verb("thing", "What it does");
+///       verb.add_option("IN", options->input, "Input file").required();
+///       session.add_common_options(verb);
+///       session.on_run(verb, [options, &session] { return run_thing(*options, session); });
 ///     }
 class Session {
  public:
@@ -39,9 +36,9 @@ class Session {
   bool verbose = false;  ///< --verbose: counters, cleaning report, times
 
   /// Declares --threads, --quiet and --verbose.
-  void add_common_options(CLI::App& verb);
+  void add_common_options(Verb& verb);
   /// Registers the work of a verb.
-  void on_run(CLI::App& verb, std::function<int()> work);
+  void on_run(Verb& verb, std::function<int()> work);
   /// The registered work of the verb that was given; called once by main.
   int run();
 
@@ -83,22 +80,22 @@ Result<double> parse_radius(std::string_view text);
 /// A finite positive number for the option `option`, as `--max-error`.
 Result<double> parse_positive(std::string_view option, std::string_view text);
 
-void add_axis_verb(CLI::App& program, Session& session);
-void add_buffer_verb(CLI::App& program, Session& session);
-void add_contour_verb(CLI::App& program, Session& session);
-void add_free_verb(CLI::App& program, Session& session);
-void add_height_verb(CLI::App& program, Session& session);
-void add_info_verb(CLI::App& program, Session& session);
-void add_lab_verb(CLI::App& program, Session& session);
-void add_mill_verb(CLI::App& program, Session& session);
-void add_offset_verb(CLI::App& program, Session& session);
-void add_profile_verb(CLI::App& program, Session& session);
-void add_rivers_verb(CLI::App& program, Session& session);
-void add_section_verb(CLI::App& program, Session& session);
-void add_simulate_verb(CLI::App& program, Session& session);
-void add_route_verb(CLI::App& program, Session& session);
-void add_terrain_verb(CLI::App& program, Session& session);
-void add_verify_verb(CLI::App& program, Session& session);
-void add_view_verb(CLI::App& program, Session& session);
+void add_axis_verb(Verb& program, Session& session);
+void add_buffer_verb(Verb& program, Session& session);
+void add_contour_verb(Verb& program, Session& session);
+void add_free_verb(Verb& program, Session& session);
+void add_height_verb(Verb& program, Session& session);
+void add_info_verb(Verb& program, Session& session);
+void add_lab_verb(Verb& program, Session& session);
+void add_mill_verb(Verb& program, Session& session);
+void add_offset_verb(Verb& program, Session& session);
+void add_profile_verb(Verb& program, Session& session);
+void add_rivers_verb(Verb& program, Session& session);
+void add_section_verb(Verb& program, Session& session);
+void add_simulate_verb(Verb& program, Session& session);
+void add_route_verb(Verb& program, Session& session);
+void add_terrain_verb(Verb& program, Session& session);
+void add_verify_verb(Verb& program, Session& session);
+void add_view_verb(Verb& program, Session& session);
 
 }  // namespace krepl::app

@@ -1,7 +1,6 @@
 // krepl verify: re-checks a result against its input by brute force.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -330,53 +329,53 @@ int run_verify(const VerifyOptions& given, Session& session) {
 
 }  // namespace
 
-void add_verify_verb(CLI::App& program, Session& session) {
+void add_verify_verb(Verb& program, Session& session) {
   auto options = std::make_shared<VerifyOptions>();
-  CLI::App* verb = program.add_subcommand("verify", "Re-check a result against its input by independent brute force");
-  verb->add_option("RESULT", options->result,
-                   "Zone or route (vector file, .csv), profile (.csv), subdivision (.json) or tool path (.ngc) to check")
-      ->required();
-  verb->add_option("--against", options->input.path, "The input that the result was made from")
-      ->required()
-      ->type_name("IN");
-  verb->add_option("--radius", options->radius, "Radius or radii, or an expression of the input's fields; may be left out where the result tells them")
-      ->type_name("R");
-  verb->add_option("--radius-field", options->input.radius_field, "Field of the input that holds each feature's radius")
-      ->type_name("NAME");
-  verb->add_flag("--per-feature", options->features.per_feature, "The result was made with --per-feature");
-  verb->add_option("--dissolve-by", options->features.dissolve_by, "The result was made with --dissolve-by FIELD")
-      ->type_name("FIELD");
-  verb->add_option("--owner", options->features.owner, "The result was made with --owner nearest")->type_name("NAME");
-  verb->add_option("--layer", options->input.layer, "Layer of the input")->type_name("NAME");
-  verb->add_option("--where", options->input.where, "Condition on the input's fields (OGR SQL)")->type_name("SQL");
-  verb->add_option("--crs", options->input.crs, "Coordinate system of the input, in place of its own")
-      ->type_name("CRS");
-  verb->add_option("--to-crs", options->input.to_crs, "Projection that the result was made with")
-      ->type_name("CRS|auto");
-  add_arc_option(*verb, options->input.arc_error);
-  verb->add_option("--samples", options->samples,
-                   "Number of points whose membership is tested, or at which the ball is let down (default: some "
-                   "seconds' worth)")
-      ->type_name("N");
-  add_shape_options(*verb, options->shape);
-  verb->add_option("--max-error", options->max_error,
-                   "Deviation allowed to a format without arcs, or depth to a tool path (default: none)")
-      ->type_name("E");
-  verb->add_option("--tool", options->tool, "Tool paths: ball:D, flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE, taper:D:ANGLE:TIP_RADIUS")->type_name("TOOL");
-  verb->add_option("--control-point", options->control_point,
-                   "Tool paths: what Z is the height of, tip (default) or centre")
-      ->type_name("NAME");
-  verb->add_option("--ceiling", options->ceiling, "Routes over a terrain: height that the ball's centre must not exceed")
-      ->type_name("Z");
-  verb->add_option("--max-slope", options->max_slope, "Routes over a terrain: largest rise over horizontal way allowed")
-      ->type_name("SLOPE");
-  verb->add_option("--z-scale", options->terrain.z_scale, "Terrains: as the result was made")->type_name("FACTOR");
-  verb->add_option("--split", options->terrain.split, "Rasters: as the result was made")->type_name("NAME");
-  verb->add_option("--band", options->terrain.request.band, "Rasters: as the result was made")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_verify(*options, session); });
+  Verb verb = program.add_verb("verify", "Re-check a result against its input by independent brute force");
+  verb.add_option("RESULT", options->result,
+                  "Zone or route (vector file, .csv), profile (.csv), subdivision (.json) or tool path (.ngc) to check")
+      .required();
+  verb.add_option("--against", options->input.path, "The input that the result was made from")
+      .required()
+      .type_name("IN");
+  verb.add_option("--radius", options->radius, "Radius or radii, or an expression of the input's fields; may be left out where the result tells them")
+      .type_name("R");
+  verb.add_option("--radius-field", options->input.radius_field, "Field of the input that holds each feature's radius")
+      .type_name("NAME");
+  verb.add_flag("--per-feature", options->features.per_feature, "The result was made with --per-feature");
+  verb.add_option("--dissolve-by", options->features.dissolve_by, "The result was made with --dissolve-by FIELD")
+      .type_name("FIELD");
+  verb.add_option("--owner", options->features.owner, "The result was made with --owner nearest").type_name("NAME");
+  verb.add_option("--layer", options->input.layer, "Layer of the input").type_name("NAME");
+  verb.add_option("--where", options->input.where, "Condition on the input's fields (OGR SQL)").type_name("SQL");
+  verb.add_option("--crs", options->input.crs, "Coordinate system of the input, in place of its own")
+      .type_name("CRS");
+  verb.add_option("--to-crs", options->input.to_crs, "Projection that the result was made with")
+      .type_name("CRS|auto");
+  add_arc_option(verb, options->input.arc_error);
+  verb.add_option("--samples", options->samples,
+                  "Number of points whose membership is tested, or at which the ball is let down (default: some "
+                  "seconds' worth)")
+      .type_name("N");
+  add_shape_options(verb, options->shape);
+  verb.add_option("--max-error", options->max_error,
+                  "Deviation allowed to a format without arcs, or depth to a tool path (default: none)")
+      .type_name("E");
+  verb.add_option("--tool", options->tool, "Tool paths: ball:D, flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE, taper:D:ANGLE:TIP_RADIUS").type_name("TOOL");
+  verb.add_option("--control-point", options->control_point,
+                  "Tool paths: what Z is the height of, tip (default) or centre")
+      .type_name("NAME");
+  verb.add_option("--ceiling", options->ceiling, "Routes over a terrain: height that the ball's centre must not exceed")
+      .type_name("Z");
+  verb.add_option("--max-slope", options->max_slope, "Routes over a terrain: largest rise over horizontal way allowed")
+      .type_name("SLOPE");
+  verb.add_option("--z-scale", options->terrain.z_scale, "Terrains: as the result was made").type_name("FACTOR");
+  verb.add_option("--split", options->terrain.split, "Rasters: as the result was made").type_name("NAME");
+  verb.add_option("--band", options->terrain.request.band, "Rasters: as the result was made")
+      .type_name("N")
+      .positive();
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_verify(*options, session); });
 }
 
 }  // namespace krepl::app

@@ -1,7 +1,6 @@
 // krepl view: one self-contained page that shows a result in a browser.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
@@ -92,40 +91,40 @@ int run_any_view(const ViewOptions& options, Session& session) {
 
 }  // namespace
 
-void add_view_verb(CLI::App& program, Session& session) {
+void add_view_verb(Verb& program, Session& session) {
   auto options = std::make_shared<ViewOptions>();
-  CLI::App* verb = program.add_subcommand("view", "One self-contained web page that shows a result");
-  verb->add_option("RESULT", options->result,
-                   "A zone in any vector format, a profile (.csv), a surface (.json, .gpkg), or a tool path (.ngc, .nc, "
-                   ".gcode, .tap)")
-      ->required();
-  verb->add_option("-o,--output", options->output, "The page to write, or -")->required()->type_name("PAGE.html");
-  verb->add_option("--input", options->input.path,
-                   "Show the input too: the lines, the terrain of a profile or surface, or the part of a tool path")
-      ->type_name("IN");
-  verb->add_option("--layer", options->input.layer, "Layer of the input to read")->type_name("NAME");
-  verb->add_option("--where", options->input.where, "Features of the input to read, as SQL")->type_name("CONDITION");
-  verb->add_option("--to-crs", options->input.to_crs,
-                   "Plane coordinate system to project the input to (default: the result's)")
-      ->type_name("EPSG:n|auto");
-  verb->add_option("--crs", options->terrain.request.crs,
-                   "Surface, tool path: coordinate system of the input, in place of what it says")
-      ->type_name("EPSG:n");
-  verb->add_option("--z-scale", options->terrain.z_scale, "Surface, tool path: as given to krepl terrain")->type_name("FACTOR");
-  verb->add_option("--split", options->terrain.split, "Surface, tool path: as given to krepl terrain")->type_name("NAME");
-  verb->add_option("--band", options->terrain.request.band, "Surface, tool path: as given to krepl terrain")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
-  verb->add_option("--max-error", options->max_error,
-                   "Surface: largest distance of the triangles that are drawn from it (default: radius / 200)")
-      ->type_name("LENGTH");
-  verb->add_option("--tool", options->program.tool,
-                   "Tool path: ball:D, flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE or taper:D:ANGLE:TIP_RADIUS")
-      ->type_name("TOOL");
-  add_program_options(*verb, options->program, "so that there are some 90,000");
-  verb->add_option("--title", options->title, "Title of the page (default: name of the file)")->type_name("TEXT");
-  session.add_common_options(*verb);
-  session.on_run(*verb, [options, &session] { return run_any_view(*options, session); });
+  Verb verb = program.add_verb("view", "One self-contained web page that shows a result");
+  verb.add_option("RESULT", options->result,
+                  "A zone in any vector format, a profile (.csv), a surface (.json, .gpkg), or a tool path (.ngc, .nc, "
+                  ".gcode, .tap)")
+      .required();
+  verb.add_option("-o,--output", options->output, "The page to write, or -").required().type_name("PAGE.html");
+  verb.add_option("--input", options->input.path,
+                  "Show the input too: the lines, the terrain of a profile or surface, or the part of a tool path")
+      .type_name("IN");
+  verb.add_option("--layer", options->input.layer, "Layer of the input to read").type_name("NAME");
+  verb.add_option("--where", options->input.where, "Features of the input to read, as SQL").type_name("CONDITION");
+  verb.add_option("--to-crs", options->input.to_crs,
+                  "Plane coordinate system to project the input to (default: the result's)")
+      .type_name("EPSG:n|auto");
+  verb.add_option("--crs", options->terrain.request.crs,
+                  "Surface, tool path: coordinate system of the input, in place of what it says")
+      .type_name("EPSG:n");
+  verb.add_option("--z-scale", options->terrain.z_scale, "Surface, tool path: as given to krepl terrain").type_name("FACTOR");
+  verb.add_option("--split", options->terrain.split, "Surface, tool path: as given to krepl terrain").type_name("NAME");
+  verb.add_option("--band", options->terrain.request.band, "Surface, tool path: as given to krepl terrain")
+      .type_name("N")
+      .positive();
+  verb.add_option("--max-error", options->max_error,
+                  "Surface: largest distance of the triangles that are drawn from it (default: radius / 200)")
+      .type_name("LENGTH");
+  verb.add_option("--tool", options->program.tool,
+                  "Tool path: ball:D, flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE or taper:D:ANGLE:TIP_RADIUS")
+      .type_name("TOOL");
+  add_program_options(verb, options->program, "so that there are some 90,000");
+  verb.add_option("--title", options->title, "Title of the page (default: name of the file)").type_name("TEXT");
+  session.add_common_options(verb);
+  session.on_run(verb, [options, &session] { return run_any_view(*options, session); });
 }
 
 }  // namespace krepl::app

@@ -6,9 +6,11 @@ import math
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -59,6 +61,27 @@ class CliTest(unittest.TestCase):
         self.assertEqual(done.stdout, "")
         self.assertEqual(self.files(), before, "a failed run must leave no file")
         self.assertFalse((self.directory / output).exists())
+
+    def start(self, *arguments, **options):
+        """krepl running in the test's directory."""
+        return subprocess.Popen(self.command(*arguments), cwd=self.directory, stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True, **options)
+
+    def wait_until(self, run, ready, what):
+        """Returns when `ready()` holds for the process `run`, however slow the machine is."""
+        until = time.monotonic() + 600
+        while not ready():
+            self.assertIsNone(run.poll(), f"finished before {what}: the test needs more data")
+            self.assertLess(time.monotonic(), until, f"not yet {what}")
+            time.sleep(0.01)
+
+    def wait_until_interruptible(self, run):
+        """Returns when the process `run` catches SIGINT (proc(5), SigCgt)."""
+        def caught():
+            status = Path(f"/proc/{run.pid}/status").read_text()
+            mask = re.search(r"^SigCgt:\s*([0-9a-f]+)", status, re.MULTILINE)
+            return mask is not None and int(mask[1], 16) >> (signal.SIGINT - 1) & 1 == 1
+        self.wait_until(run, caught, "it catches SIGINT")
 
     def files(self):
         return sorted(p.name for p in self.directory.iterdir())

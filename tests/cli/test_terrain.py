@@ -3,6 +3,7 @@ import json
 import math
 import os
 import re
+import signal
 import struct
 import subprocess
 from collections import Counter
@@ -477,13 +478,10 @@ class Terrain(support.CliTest):
     def test_interrupt_leaves_nothing(self):
         rows = [[(i * i * 7 + j * j * 5) % 13 for j in range(300)] for i in range(300)]
         self.write("big.asc", grid(rows))
-        process = subprocess.Popen(self.command("terrain", "big.asc", "out.json", "--radius", 3), cwd=self.directory,
-                                   stderr=subprocess.PIPE, stdout=subprocess.PIPE)
-        try:
-            process.wait(timeout=1)
-        except subprocess.TimeoutExpired:
-            process.send_signal(2)
-        process.communicate(timeout=20)
+        process = self.start("terrain", "big.asc", "out.json", "--radius", 3)
+        self.wait_until_interruptible(process)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130)
         self.assertEqual(self.files(), ["big.asc", "in.asc"])
 
