@@ -41,7 +41,7 @@ class Option {
 };
 
 /// The program or a verb, whose options are declared by `add_option` with the variable that takes the value: it must live
-/// until the command line has been parsed.
+/// until the command line has been parsed, which is when verbs and options end.
 class Verb {
  public:
   explicit Verb(CLI::App& app) : app_(&app) {}

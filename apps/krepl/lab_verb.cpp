@@ -192,11 +192,10 @@ void add_lab_verb(Verb& program, Session& session) {
   Menu menu{verb, session};
   add_constructions(menu);
   add_experiments(menu);
+  const std::vector<Verb::Entry> experiments = verb.verbs();
   Verb list = verb.add_verb("list", "The names of all experiments");
-  session.on_run(list, [verb, &session] {
-    for (const Verb::Entry& each : verb.verbs()) {
-      if (each.name != "list") session.summary(fmt::format("{:<14} {}", each.name, each.what));
-    }
+  session.on_run(list, [experiments, &session] {
+    for (const Verb::Entry& each : experiments) session.summary(fmt::format("{:<14} {}", each.name, each.what));
     return 0;
   });
 }
