@@ -32,7 +32,7 @@ Result<Surface> compute_surface_incremental(std::shared_ptr<const Terrain> terra
                                             const Context& context) {
   if (auto error = refusal(*terrain, options)) return *error;
   const incremental::Parts parts(*terrain, options.radius);
-  const incremental::Tolerance tolerance(std::max(options.radius, terrain->extent()));
+  const incremental::Tolerance tolerance(parts.scale());
   incremental::Union growing(parts, tolerance);
   SurfaceCounters counters;
   counters.patches = parts.parts().size();

@@ -18,6 +18,42 @@ bool is_about(const std::array<Index, 2>& label, const Arc& arc) {
   return (label[0] == own[0] && label[1] == own[1]) || (label[0] == own[1] && label[1] == own[0]);
 }
 
+/// Where a stretch crosses an arc at an angle that tells the place.
+std::optional<Real> crossing(const Arc& stretch, const Arc& arc, Real weld) {
+  const Real width = stretch.end - stretch.begin, size = flat_distance(stretch.point(stretch.begin), stretch.point(stretch.end));
+  if (!stretch.box.meets(arc.box)) return std::nullopt;
+  const auto near = PlanarMap::passes(arc, stretch.point((stretch.begin + stretch.end) / 2), size);
+  if (!near) return std::nullopt;
+  const Real arc_step = (arc.end - arc.begin) / 4096, step = width / 8;
+  Real t = (stretch.begin + stretch.end) / 2, s = *near;
+  for (int i = 0; i < 20; ++i) {
+    const Vector off = arc.point(s) - stretch.point(t);
+    const Vector d = (1 / (2 * step)) * (stretch.point(t + step) - stretch.point(t - step)),
+                 e = (1 / (2 * arc_step)) * (arc.point(s + arc_step) - arc.point(s - arc_step));
+    const Real turn = d.x * e.y - d.y * e.x;
+    if (!(std::fabs(turn) > 0x1p-12L * std::sqrt((d.x * d.x + d.y * d.y) * (e.x * e.x + e.y * e.y)))) return std::nullopt;
+    const Real dt = (off.x * e.y - off.y * e.x) / turn, ds = (off.x * d.y - off.y * d.x) / turn;
+    t += dt, s += ds;
+    if (!(t >= stretch.begin - width && t <= stretch.end + width && s >= std::min(arc.begin, arc.end) - arc_step &&
+          s <= std::max(arc.begin, arc.end) + arc_step))
+      return std::nullopt;
+    if (std::fabs(dt) <= 0x1p-20L * width) break;
+  }
+  const bool inside = t >= stretch.begin && t <= stretch.end && s >= arc.begin && s <= arc.end;
+  return inside && flat_distance(stretch.point(t), arc.point(s)) <= weld / 4 ? std::optional(t) : std::nullopt;
+}
+
+/// Of all arcs, the crossing nearest to t.
+std::optional<Real> nearest_crossing(const Arc& stretch, Real t, const std::vector<Arc>& arcs, Real weld) {
+  std::optional<Real> nearest;
+  for (const Arc& arc : arcs) {
+    if (arc.curve == stretch.curve) continue;
+    const auto at = crossing(stretch, arc, weld);
+    if (at && (!nearest || std::fabs(*at - t) < std::fabs(*nearest - t))) nearest = at;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 /// Face, edges and vertices of a triangle that no triangle so far has.
@@ -162,6 +198,12 @@ void Union::set_ends(std::vector<Arc>& arcs) {
       };
       for (const Vector p : corners_) try_place(p);
       for (Index v = 0; v < map_.vertex_count() && arc.vertex[side] == none; ++v) try_place(map_.vertex(v));
+      if (arc.vertex[side] == none) {
+        if (const auto t = nearest_crossing(open, side == 0 ? arc.begin : arc.end, arcs, tolerance_.weld)) {
+          arc.vertex[side] = map_.vertex_at(open.point(*t));
+          (side == 0 ? arc.begin : arc.end) = *t;
+        }
+      }
       if (arc.vertex[side] == none) arc.vertex[side] = map_.vertex_at(place(arc, side));
       PlanarMap::measure(arc);
     }
@@ -267,7 +309,8 @@ bool Union::rejoin(std::vector<Arc>& arcs) const {
   return found;
 }
 
-/// The part that is highest over a place.
+/// The part that is highest over a place. Among equals the first, but of two edges in one line the one of which the other may
+/// be a part.
 Index Union::label(Vector place) const {
   Real best = below_everything;
   std::vector<std::pair<Real, Index>> found;
@@ -277,10 +320,15 @@ Index Union::label(Vector place) const {
     best = std::max(best, h);
     found.push_back({h, p});
   }
+  Index first = none;
   for (const auto& [h, p] : found) {
-    if (h >= best - tolerance_.tie) return p;
+    if (h < best - tolerance_.tie) continue;
+    if (first == none)
+      first = p;
+    else if (parts_.are_in_one_line(p, first) && parts_.edge_of(p).length > parts_.edge_of(first).length)
+      first = p;
   }
-  return none;
+  return first;
 }
 
 /// The parts that are highest so far beside the middle of an arc, left and right.
@@ -328,8 +376,7 @@ bool Union::set_labels(Arc& arc) const {
   if (arc.lower != 2)
     arc.kind = EdgeKind::rim;
   else
-    arc.kind = length(contact[0] - contact[1]) <= 8 * near && (parts_.share_corner(arc.label[0], arc.label[1]) ||
-                                                               parts_.are_in_one_line(arc.label[0], arc.label[1]))
+    arc.kind = length(contact[0] - contact[1]) <= 8 * near && parts_.continue_smoothly(arc.label[0], arc.label[1])
                    ? EdgeKind::seam
                    : EdgeKind::valley;
   return true;

@@ -13,6 +13,9 @@ namespace {
 /// Directions that differ by less are parallel or coplanar.
 constexpr Real parallel = 1e-13L;
 
+/// What rises above a plane by less only touches it: where exactly they would cross, rounding decides, and it is far off.
+Real flush(const Parts& parts) { return 0x1p-54L * parts.scale(); }
+
 /// The half of the unit circle with positive sine from turn -1, where the cosine is 1, to turn 1: rational, since
 /// trigonometric functions take most of the time otherwise.
 struct Direction {
@@ -174,8 +177,11 @@ void face_with_edge(const Parts& parts, Index face, Index edge, std::vector<Curv
   const EdgePart& e = parts.edge_of(edge);
   if (std::find(t.edge.begin(), t.edge.end(), parts[edge].item) != t.edge.end()) return;
   const Real size = dot(t.normal, t.corner[0]) + parts.radius();
-  if (std::fabs(dot(t.normal, e.direction)) < parallel)
-    return add_lines(parts, edge, face, t.normal, size - dot(t.normal, e.at), curves);
+  if (std::fabs(dot(t.normal, e.direction)) < parallel) {
+    const Real value = size - dot(t.normal, e.at);
+    if (parts.radius() - std::fabs(value) > flush(parts)) add_lines(parts, edge, face, t.normal, value, curves);
+    return;
+  }
   curves.push_back(section(parts, Role::meeting, edge, face, t.normal, size));
 }
 
@@ -185,7 +191,7 @@ void face_with_vertex(const Parts& parts, Index face, Index vertex, std::vector<
   const Vector v = parts.vertex_of(vertex).at;
   const Real rise = parts.radius() - dot(t.normal, v - t.corner[0]);
   const Real square = (parts.radius() - rise) * (parts.radius() + rise);
-  if (square > 0)
+  if (parts.radius() - std::fabs(rise) > flush(parts))
     curves.push_back(circle(Role::meeting, face, vertex, v + rise * t.normal, t.normal, std::sqrt(square)));
 }
 

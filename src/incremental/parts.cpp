@@ -50,7 +50,8 @@ TrianglePart triangle_part(const TerrainWindow& window, const TerrainWindow::Fac
 
 }  // namespace
 
-Parts::Parts(const Terrain& terrain, double radius) : radius_(radius) {
+Parts::Parts(const Terrain& terrain, double radius)
+    : radius_(radius), scale_(std::max(radius, terrain.extent())) {
   TerrainWindow window;
   const double margin = terrain.extent();
   window.fill(terrain, {terrain.lowest().x - margin, terrain.lowest().y - margin},
@@ -90,6 +91,13 @@ Parts::Parts(const Terrain& terrain, double radius) : radius_(radius) {
       parts_[vertices_[triangles_[t].vertex[k]].part].triangles.push_back(t);
     }
   }
+}
+
+bool Parts::continue_smoothly(Index first, Index second) const {
+  if (parts_[first].kind != FeatureKind::face || parts_[second].kind != FeatureKind::face)
+    return share_corner(first, second) || are_in_one_line(first, second);
+  const auto &v = triangle_of(first).vertex, &w = triangle_of(second).vertex;
+  return std::count_if(v.begin(), v.end(), [&](Index i) { return std::find(w.begin(), w.end(), i) != w.end(); }) >= 2;
 }
 
 Real Parts::height(Index part, Vector place) const {

@@ -52,6 +52,8 @@ class Parts {
   Parts(const Terrain& terrain, double radius);
 
   Real radius() const { return radius_; }
+  /// S, the larger of R and the terrain's extent.
+  Real scale() const { return scale_; }
   const std::vector<Part>& parts() const { return parts_; }
   const std::vector<TrianglePart>& triangles() const { return triangles_; }
   const std::vector<EdgePart>& edges() const { return edges_; }
@@ -69,12 +71,15 @@ class Parts {
   bool share_corner(Index first, Index second) const;
   /// True if both are edges in one line of space.
   bool are_in_one_line(Index first, Index second) const;
+  /// Neighbours: their patches meet in a seam where they touch the same place. Two faces need an edge in common: such as lie
+  /// one on the other in one plane do not continue each other.
+  bool continue_smoothly(Index first, Index second) const;
   /// From a point to the triangle and everything straight below it, which is convex. A semi-krepl is what is nearer
   /// than R.
   Real prism_distance(Index triangle, Vector c) const;
 
  private:
-  Real radius_;
+  Real radius_, scale_;
   std::vector<Part> parts_;
   std::vector<TrianglePart> triangles_;
   std::vector<EdgePart> edges_;

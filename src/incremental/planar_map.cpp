@@ -110,7 +110,8 @@ bool PlanarMap::turn_order(Index v, Real radius) {
   std::vector<Exit> exits;
   const Vector center = vertices_[v];
   for (const Index h : around_[v]) {
-    const auto p = leaves_circle(arcs_[h / 2], h % 2 == 1, center, radius);
+    const Arc& arc = arcs_[h / 2];
+    const auto p = leaves_circle(arc, h % 2 == 1, center, std::min(radius, 0.9L * arc.reach));
     if (!p) return false;
     exits.push_back({std::atan2(p->y - center.y, p->x - center.x), h});
   }
@@ -127,11 +128,16 @@ bool PlanarMap::turn_order(Index v, Real radius) {
 }
 
 std::optional<Fault> PlanarMap::order_around(Index v) {
-  Real reach = std::numeric_limits<Real>::infinity();
-  for (const Index h : around_[v]) reach = std::min(reach, arcs_[h / 2].reach);
-  // Curves that are tangent part with the square of the distance, so the circle is as large as it can be.
-  for (const Real share : {0.3L, 0.03L, 0.003L, 0.0003L, 0.9L}) {
-    if (turn_order(v, share * reach)) return std::nullopt;
+  std::vector<Real> reach;
+  for (const Index h : around_[v]) reach.push_back(arcs_[h / 2].reach);
+  std::sort(reach.begin(), reach.end());
+  reach.erase(std::unique(reach.begin(), reach.end()), reach.end());
+  // Curves that are tangent part with the square of the distance, so the circle is as large as it can be: as the shortest
+  // arc, then, if others are tangent that close, as longer ones, where shorter arcs count as they point.
+  for (const Real most : reach) {
+    for (const Real share : {0.3L, 0.03L, 0.003L, 0.0003L, 0.9L}) {
+      if (turn_order(v, share * most)) return std::nullopt;
+    }
   }
   return Fault{"labels around a vertex do not agree", vertices_[v]};
 }

@@ -172,7 +172,8 @@ bool Cells<Real>::settle(const Cell& cell, std::span<Index> candidates, bool sma
   const std::size_t n = turns_.size();
   bool settled = n == 0;
   if (n == 2) settled = settle_arc(cell.box, smallest);
-  if (n >= 3) settled = settle_star(cell.box, smallest) || settle_strips(cell.box);
+  if (n == 4) settled = settle_crossing(cell.box);
+  if (n >= 3 && !settled) settled = settle_star(cell.box, smallest) || settle_strips(cell.box);
   if (!settled) return false;
   ++counters_.leaves;
   if (smallest) ++counters_.smallest_cells;
@@ -312,6 +313,28 @@ std::optional<PointOf<Real>> Cells<Real>::crossing_of_edges(const Turn& t, const
   return inside && shows_at(t.before, p) && shows_at(t.after, p) ? std::optional(p) : std::nullopt;
 }
 
+/// Two cylinders whose edges cross, and nothing else: each of the two curves along which they are equally high runs through
+/// the crossing from wall to wall of the cylinders. With the walls outside, so do the four ends, and the four turns are
+/// where they leave.
+template <class Real>
+bool Cells<Real>::settle_crossing(const Box& box) {
+  const Turn& t = turns_[0];
+  if (turns_[1].after != t.before || turns_[2].after != t.after || turns_[3].after != t.before) return false;
+  if (std::any_of(turns_.begin(), turns_.end(), [](const Turn& u) { return u.meeting != Meeting::valley; }))
+    return false;
+  const std::optional<Point> p = crossing_of_edges(t, box);
+  if (!p || !box.contains(*p)) return false;
+  const PatchSet<Real>& patches = envelope_.patches();
+  for (const Index l : {t.before, t.after}) {
+    const Patch& f = patches[l];
+    for (const Point c : box.corners()) {
+      if (absolute((c.y - f.at.y) * f.gx - (c.x - f.at.x) * f.gy) >= patches.radius()) return false;
+    }
+  }
+  add_vertex(*p);
+  return true;
+}
+
 template <class Real>
 bool Cells<Real>::settle_arc(const Box& box, bool smallest) {
   const Turn &a = turns_[0], &b = turns_[1];
@@ -406,7 +429,7 @@ PointOf<Real> Cells<Real>::least_gap(const Box& box) const {
 
 /// The corner at which a patch's sides end that bound it at two turns in a row, if it lies close to p. Where the two
 /// are tangent, the patch is too thin to show for a stretch beyond its corner. The same if the patch's own wall runs in
-/// the foot of a higher one that passes the corner, too.
+/// the foot of a higher one that passes the corner, too, or comes out from under it there.
 template <class Real>
 std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
   const PatchSet<Real>& patches = envelope_.patches();
@@ -425,7 +448,10 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
     const auto is_at_foot = [&](const Turn& t) { return t.meeting == Meeting::rim && !is_wall_of(t, patch); };
     const auto own_side = [&](const Turn& t) { return is_at_foot(t) ? envelope_.rim_at(patch, t.at) : side_along(t); };
     const Bound *a = own_side(from), *b = own_side(to);
-    if (a == nullptr || b == nullptr || a == b) continue;
+    // A wall that comes out from under the higher one.
+    const bool out_of_foot = is_at_foot(from) != is_at_foot(to) && is_wall_of(is_at_foot(from) ? to : from, patch);
+    if (out_of_foot && (a == nullptr || b == nullptr)) a = b = a == nullptr ? b : a;
+    if (a == nullptr || b == nullptr || (a == b && !out_of_foot)) continue;
     for (const Point c : patches.corners(patch)) {
       const Real apart = norm(c.x - p.x, c.y - p.y);
       const auto ends = [&](const Bound& side) {

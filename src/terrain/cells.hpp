@@ -76,6 +76,7 @@ class Cells {
   bool settle(const Cell& cell, std::span<Index> candidates, bool smallest);
   std::optional<Point> crossing_of_edges(const Turn& turn, const Box& box) const;
   bool settle_arc(const Box& box, bool smallest);
+  bool settle_crossing(const Box& box);
   bool settle_strips(const Box& box);
   bool pair_turns();
   std::optional<Point> vertex_of_star(const Box& box);

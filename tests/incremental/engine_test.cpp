@@ -147,7 +147,7 @@ struct Tally {
       note(differ, number, *comparison.difference, c);
   }
   void note(int& count, int number, const std::string& what, const SmallTerrain& c) {
-    if (++count <= 3) std::printf("case %d: %s\n%s", number, what.c_str(), text(c).c_str());
+    if (++count <= 1000) std::printf("case %d: %s\n%s", number, what.c_str(), text(c).c_str());
   }
   void print(const char* name) const {
     std::printf(

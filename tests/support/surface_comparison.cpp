@@ -388,6 +388,10 @@ class Comparer {
 
 }  // namespace
 
+Comparison compare_strict(const Surface& first, const Surface& second, double tolerance) {
+  return Comparer(first, second, tolerance, false).run();
+}
+
 Comparison compare(const Surface& first, const Surface& second, double tolerance) {
   const Comparison strict = Comparer(first, second, tolerance, false).run();
   return strict.difference ? Comparer(first, second, tolerance, true).run() : strict;
