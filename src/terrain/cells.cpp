@@ -429,7 +429,7 @@ PointOf<Real> Cells<Real>::least_gap(const Box& box) const {
 
 /// The corner at which a patch's sides end that bound it at two turns in a row, if it lies close to p. Where the two
 /// are tangent, the patch is too thin to show for a stretch beyond its corner. The same if the patch's own wall runs in
-/// the foot of a higher one that passes the corner, too, or comes out from under it there.
+/// the foot of a higher one that passes the corner, too, or if a side of it comes out from under a higher wall there.
 template <class Real>
 std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
   const PatchSet<Real>& patches = envelope_.patches();
@@ -448,9 +448,12 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
     const auto is_at_foot = [&](const Turn& t) { return t.meeting == Meeting::rim && !is_wall_of(t, patch); };
     const auto own_side = [&](const Turn& t) { return is_at_foot(t) ? envelope_.rim_at(patch, t.at) : side_along(t); };
     const Bound *a = own_side(from), *b = own_side(to);
-    // A wall that comes out from under the higher one.
-    const bool out_of_foot = is_at_foot(from) != is_at_foot(to) && is_wall_of(is_at_foot(from) ? to : from, patch);
-    if (out_of_foot && (a == nullptr || b == nullptr)) a = b = a == nullptr ? b : a;
+    // A side that comes out from under a higher wall.
+    const bool out_of_foot = is_at_foot(from) != is_at_foot(to);
+    if (out_of_foot && (a == nullptr || b == nullptr)) {
+      const Turn& out = is_at_foot(from) ? to : from;
+      a = b = out.meeting == Meeting::valley ? envelope_.rim_at(patch, out.at) : side_along(out);
+    }
     if (a == nullptr || b == nullptr || (a == b && !out_of_foot)) continue;
     for (const Point c : patches.corners(patch)) {
       const Real apart = norm(c.x - p.x, c.y - p.y);

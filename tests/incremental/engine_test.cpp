@@ -147,7 +147,7 @@ struct Tally {
       note(differ, number, *comparison.difference, c);
   }
   void note(int& count, int number, const std::string& what, const SmallTerrain& c) {
-    if (++count <= 1000) std::printf("case %d: %s\n%s", number, what.c_str(), text(c).c_str());
+    if (++count <= 20) std::printf("case %d: %s\n%s", number, what.c_str(), text(c).c_str());
   }
   void print(const char* name) const {
     std::printf(
@@ -249,6 +249,119 @@ TEST(SurfaceComparison, SeesDifferences) {
     const auto b = incremental_surface(other);
     ASSERT_TRUE(b);
     EXPECT_TRUE(compare(*a, *b, 1e-9 * 12).difference);
+  }
+}
+
+/// Surfaces are not to be changed, but for this test.
+template <auto Member, class Tag>
+struct Opened {
+  friend auto& opened(Surface& s, Tag) { return s.*Member; }
+};
+#define KREPL_OPEN(name) \
+  struct name {};        \
+  auto& opened(Surface&, name)
+KREPL_OPEN(Places);
+KREPL_OPEN(Labels);
+KREPL_OPEN(Styles);
+KREPL_OPEN(Topology);
+KREPL_OPEN(GuidedEdges);
+#undef KREPL_OPEN
+template struct Opened<&Surface::vertex_, Places>;
+template struct Opened<&Surface::face_feature_, Labels>;
+template struct Opened<&Surface::style_, Styles>;
+template struct Opened<&Surface::subdivision_, Topology>;
+template struct Opened<&Surface::guided_edge_, GuidedEdges>;
+
+/// Without its last edge; the face on its right becomes that on its left.
+void remove_last_edge(Surface& s) {
+  Subdivision& t = opened(s, Topology{});
+  const auto h = Subdivision::Index(t.origin.size() - 2), g = h + 1;
+  const Subdivision::Index left = t.face[h], right = t.face[g];
+  for (auto& next : t.next) {
+    if (next == h && t.next[g] != h) next = t.next[g];
+    else if (next == g && t.next[h] != g) next = t.next[h];
+  }
+  for (auto& f : t.face) f = f == right ? left : f;
+  for (auto* array : {&t.origin, &t.next, &t.face}) array->resize(h);
+  opened(s, Styles{}).pop_back();
+}
+
+/// Any place off by ten times the tolerance, any wrong label or kind, and an edge less are differences.
+TEST(SurfaceComparison, SeesMutations) {
+  const SmallTerrain c = counter_example();
+  const auto surface = incremental_surface(c);
+  ASSERT_TRUE(surface);
+  const double tolerance = 1e-9 * 12;
+  const auto differs = [&](const auto& change) {
+    Surface changed = *surface;
+    change(changed);
+    return compare(*surface, changed, tolerance).difference.has_value() &&
+           compare(changed, *surface, tolerance).difference.has_value();
+  };
+  const Subdivision& t = surface->subdivision();
+  for (Subdivision::Index v = 0; v < t.vertex_count; ++v) {
+    const Point3 p = surface->vertex(v);
+    const std::string which = "vertex at " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z);
+    for (const auto along : {&Point3::x, &Point3::y, &Point3::z}) {
+      const char axis = along == &Point3::x ? 'x' : along == &Point3::y ? 'y' : 'z';
+      EXPECT_TRUE(differs([&](Surface& s) { opened(s, Places{})[v].*along += 10 * tolerance; })) << which << " along " << axis;
+      EXPECT_FALSE(differs([&](Surface& s) { opened(s, Places{})[v].*along += 0.5 * tolerance; })) << which << " along " << axis;
+    }
+  }
+  for (Subdivision::Index f = 1; f < t.face_count(); ++f) {
+    EXPECT_TRUE(differs([&](Surface& s) {
+      auto& label = opened(s, Labels{})[f];
+      label = label == 0 ? 1 : 0;
+    })) << "face " << f;
+  }
+  for (Subdivision::Index e = 0; e < t.edge_count(); ++e) {
+    const bool is_seam = surface->edge(e).kind == Surface::EdgeKind::seam;
+    if (surface->edge(e).kind == Surface::EdgeKind::rim) continue;
+    EXPECT_TRUE(differs([&](Surface& s) {
+      opened(s, Styles{})[e] ^= std::uint8_t(int(Surface::EdgeKind::seam) ^ int(Surface::EdgeKind::valley));
+    })) << "edge " << e << is_seam;
+  }
+  EXPECT_TRUE(differs(remove_last_edge));
+}
+
+/// What once was known to the root of the tolerance only, or not at all, agrees to the tolerance.
+TEST(Incremental, EnginesAgreeToTheTolerance) {
+  const auto expect_same = [](const SmallTerrain& c) {
+    const auto cells = surface_within(c, 30), other = incremental_surface(c);
+    ASSERT_TRUE(cells && other) << text(c);
+    const auto comparison = compare(*cells, *other, 1e-9 * std::max(c.radius, cells->terrain().extent()));
+    EXPECT_FALSE(comparison.difference) << *comparison.difference << '\n' << text(c);
+    EXPECT_FALSE(comparison.up_to_tangency) << text(c);
+  };
+  // A wall comes out from under a sphere's, tangent to it, at its end.
+  expect_same(mesh({{2, 1, 0}, {7, 0, 1}, {3, 3, 0}, {7, 0, 0}, {5, 7, 0}, {4, 7, 0}}, {{0, 1, 2}, {3, 4, 5}}, 2));
+  expect_same(mesh({{0, 6, 0}, {0, 4, 0}, {0, 4, 1}, {7, 6, 0}, {0, 4, 2}, {4, 5, 0}}, {{0, 1, 2}, {3, 4, 5}}, 2.5));
+  // A seam does so.
+  expect_same(mesh({{0, 4, 3}, {2, 4, 0}, {0, 4, 0}, {2, 6, 0}, {0, 6, 0}}, {{0, 1, 2}, {2, 3, 4}}, 2));
+  // Faces in one plane overlap, and their edges cross.
+  expect_same(mesh({{7, 0, 0}, {3, 6, 1}, {7, 4, 2}, {3, 4, 0}, {4, 5, 1}, {1, 6, 0}}, {{0, 1, 2}, {3, 4, 5}}, std::sqrt(0.5)));
+  // Edges overlap in one line, from a common end.
+  expect_same(mesh({{3, 6, 0}, {7, 7, 0}, {7, 6, 0}, {7, 2, 0}, {5, 4, 1}}, {{0, 1, 2}, {3, 4, 1}}, 0.75));
+}
+
+/// Over the place where two edges cross, four valleys meet in one vertex.
+TEST(Incremental, CrossingEdgesMakeOneVertex) {
+  const SmallTerrain c =
+      mesh({{2, 4, 0}, {4, 4, 2}, {1, 5, 2}, {7, 6, 2}, {0, 4, 2}, {4, 5, 0}}, {{0, 1, 2}, {3, 4, 5}}, 2.5);
+  const auto cells = surface_within(c, 30), other = incremental_surface(c);
+  ASSERT_TRUE(cells && other);
+  for (const Surface* s : {&*cells, &*other}) {
+    int valleys[2] = {0, 0};  // by vertex: of four, of others over the crossing
+    const Subdivision& t = s->subdivision();
+    const Point3 o = s->terrain().origin();
+    for (Subdivision::Index v = 0; v < t.vertex_count; ++v) {
+      const Point3 p = s->vertex(v);
+      const double x = p.x + o.x - 28.0 / 13, y = p.y + o.y - 60.0 / 13, z = p.z + o.z - 4.5;
+      if (std::hypot(x, y, z) > 1e-6) continue;
+      ++valleys[std::count(t.origin.begin(), t.origin.end(), v) == 4 ? 0 : 1];
+    }
+    EXPECT_EQ(valleys[0], 1);
+    EXPECT_EQ(valleys[1], 0);
   }
 }
 

@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <set>
 #include <vector>
 
 #include "support/ball_oracle.hpp"
@@ -17,6 +16,8 @@ namespace {
 
 using Index = Surface::Index;
 constexpr Index none = Surface::none;
+/// Places along a tangent are known badly, but balls there touch all the better: to this share of the tolerance.
+constexpr double exact = 0.5;
 
 std::string at(Point3 p) {
   char buffer[100];
@@ -42,7 +43,8 @@ class Reduced {
         topology_(surface.subdivision()),
         origin_(topology_.origin),
         next_(topology_.next),
-        previous_(next_.size()) {
+        previous_(next_.size()),
+        tangent_(std::sqrt(tolerance * std::max(surface.radius(), surface.terrain().extent()))) {
     const auto count = Index(next_.size());
     for (Index h = 0; h < count; ++h) previous_[next_[h]] = h;
     vertex_.resize(topology_.vertex_count);
@@ -50,15 +52,9 @@ class Reduced {
     face_.resize(topology_.face_count());
     std::iota(face_.begin(), face_.end(), Index{0});
     alive_.assign(count, true);
-    features_.resize(topology_.vertex_count);
-    walls_.resize(topology_.vertex_count);
-    for (Index h = 0; h < count; ++h) {
-      for (const Index f : surface.edge(h / 2).feature) {
-        if (f == none) continue;
-        features_[topology_.origin[h]].insert(f);
-        if (surface.edge(h / 2).kind == Surface::EdgeKind::rim) walls_[topology_.origin[h]].insert(f);
-      }
-    }
+    ends_.resize(topology_.vertex_count);
+    for (Index h = 0; h < count; ++h) ends_[topology_.origin[h]].push_back(h);
+    for (Index v = 0; v < topology_.vertex_count; ++v) place_.push_back(surface.vertex(v));
     for (Index e = 0; e < count / 2; ++e) contract_if_short(e, tolerance, up_to_tangency);
     out_.resize(topology_.vertex_count);
     for (Index h = 0; h < count; ++h) {
@@ -86,17 +82,22 @@ class Reduced {
   const std::vector<Chain>& chains() const { return chains_; }
   Index feature(Index h) const { return surface_.face_feature(topology_.face[h]); }
 
-  /// A ball about p touches what balls touch beside the vertex, within the tolerance. What ends in a wall there may do
-  /// so further down than the vertex.
-  bool touches(Index v, Point3 p, double tolerance) const {
-    return std::all_of(features_[v].begin(), features_[v].end(), [&](Index f) {
-      Terrain::Corners c = surface_.terrain().corners(f);
-      const auto off = [&] { return std::fabs(double(nearest_on(c, {p.x, p.y, p.z}).distance) - surface_.radius()); };
-      if (off() <= tolerance) return true;
-      if (!walls_[v].contains(f) || c.count == 3) return false;
-      for (Point3& q : c.point) q.z = p.z;
-      return off() <= tolerance;
-    });
+  Point3 place(Index v) const { return place_[v]; }
+
+  /// A ball about p touches what balls touch beside the vertex, at seams at one place, within the tolerance. What meets a wall
+  /// there may do so further down than the vertex, but not all of it unless heights do not count.
+  bool touches(Index v, Point3 p, double tolerance, bool any_height = false) const {
+    bool top = any_height;
+    for (const Index h : ends_[v]) {
+      const auto edge = surface_.edge(h / 2);
+      const bool wall = edge.kind == Surface::EdgeKind::rim, below = end_of(h).z < place_[v].z - tolerance;
+      const LongPoint c{p.x, p.y, p.z};
+      if (below && !wall ? !touches_below(h, p, tolerance) : !touches(edge, c, tolerance)) return false;
+      // Where a wall begins, balls touch at their own height.
+      if (wall && !below && !any_height && std::fabs(double(foot(upper(edge), c).z - c.z)) > tolerance) return false;
+      top = top || !below;
+    }
+    return top;
   }
 
   /// Half-edges out of a vertex, counter-clockwise.
@@ -132,26 +133,83 @@ class Reduced {
     while (joined[i] != i) i = joined[i];
     return i;
   }
+  static Index upper(const Surface::Edge& rim) { return rim.feature[0] != none ? rim.feature[0] : rim.feature[1]; }
+  /// Where a ball touches the feature's point, line or plane.
+  LongPoint foot(Index f, LongPoint c) const { return foot(surface_.terrain().corners(f), c); }
+  static LongPoint foot(const Terrain::Corners& k, LongPoint c) {
+    const auto vector = [&](int i) {
+      return LongPoint{Long(k.point[i].x) - k.point[0].x, Long(k.point[i].y) - k.point[0].y,
+                       Long(k.point[i].z) - k.point[0].z};
+    };
+    const auto dot = [](LongPoint v, LongPoint w) { return v.x * w.x + v.y * w.y + v.z * w.z; };
+    const LongPoint at{k.point[0].x, k.point[0].y, k.point[0].z}, off{c.x - at.x, c.y - at.y, c.z - at.z};
+    if (k.count == 1) return at;
+    const LongPoint d = vector(1);
+    if (k.count == 2) {
+      const Long s = dot(off, d) / dot(d, d);
+      return {at.x + s * d.x, at.y + s * d.y, at.z + s * d.z};
+    }
+    const LongPoint e = vector(2), n{d.y * e.z - d.z * e.y, d.z * e.x - d.x * e.z, d.x * e.y - d.y * e.x};
+    const Long s = dot(off, n) / dot(n, n);
+    return {c.x - s * n.x, c.y - s * n.y, c.z - s * n.z};
+  }
+  bool touches(const Surface::Edge& edge, LongPoint c, double tolerance) const {
+    const double radius = surface_.radius();
+    if (edge.kind == Surface::EdgeKind::rim) {  // upright: at whatever height
+      Terrain::Corners flat = surface_.terrain().corners(upper(edge));
+      for (Point3& p : flat.point) p.z = double(c.z);
+      const LongPoint q = foot(flat, c);
+      return std::fabs(double(std::hypot(q.x - c.x, q.y - c.y)) - radius) <= tolerance;
+    }
+    const auto touched = [&](Index f) {
+      return std::fabs(double(nearest_on(surface_.terrain().corners(f), c).distance) - radius) <= tolerance;
+    };
+    if (!touched(edge.feature[0]) || !touched(edge.feature[1])) return false;
+    const LongPoint q = foot(edge.feature[0], c), r = foot(edge.feature[1], c);
+    return edge.kind != Surface::EdgeKind::seam || std::hypot(q.x - r.x, q.y - r.y, q.z - r.z) <= 4 * tolerance;
+  }
+  Point3 end_of(Index h) const {
+    const auto points = surface_.curve(h / 2, 3);
+    return h % 2 == 0 ? points.front() : points.back();
+  }
+  /// Straight below p, too, there is a ball that touches both features of such an edge. It is found by the one that rises less
+  /// steeply.
+  bool touches_below(Index h, Point3 p, double tolerance) const {
+    const auto feature = surface_.edge(h / 2).feature;
+    LongPoint c{p.x, p.y, end_of(h).z};
+    const auto nearest = [&](Index f) { return nearest_on(surface_.terrain().corners(f), c); };
+    const Index flatter = nearest(feature[0]).at.z < nearest(feature[1]).at.z ? feature[0] : feature[1];
+    c.z += surface_.radius();  // the distance is convex in z, so Newton's method comes down to the highest place
+    for (int i = 0; i < 60; ++i) {
+      const Nearest n = nearest(flatter);
+      if (c.z - n.at.z < tolerance / 1024) break;
+      c.z = std::max(n.at.z, c.z + (surface_.radius() - n.distance) * n.distance / (c.z - n.at.z));
+    }
+    return touches(surface_.edge(h / 2), c, tolerance);
+  }
   Index find(Index v) const { return root(vertex_, v); }
   /// If both ends are the same place but for what cannot be told where curves are tangent, and it stays near.
   void contract_if_short(Index e, double tolerance, bool up_to_tangency) {
     const auto points = surface_.curve(e, 9);
     const auto off = [&](Point3 p) { return std::hypot(p.x - points[0].x, p.y - points[0].y); };
-    const double tangent = std::sqrt(tolerance * std::max(surface_.radius(), surface_.terrain().extent()));
-    if (!std::all_of(points.begin(), points.end(), [&](Point3 p) { return off(p) <= tangent; })) return;
+    if (!std::all_of(points.begin(), points.end(), [&](Point3 p) { return off(p) <= tangent_; })) return;
     const Index v = find(topology_.origin[2 * e]), w = find(topology_.origin[2 * e + 1]);
-    if (off(points.back()) <= tolerance) return contract(e, v, w);
-    if (!up_to_tangency) return;
-    if (touches(w, surface_.vertex(v), tolerance))
+    const bool same = off(points.back()) <= tolerance;
+    if (!same && !up_to_tangency) return;
+    const bool wall = std::fabs(place_[v].z - place_[w].z) > 16 * tangent_;  // one is at the foot, the other further up
+    if (touches(w, place_[v], tolerance * exact, wall))
       contract(e, v, w);
-    else if (touches(v, surface_.vertex(w), tolerance))
+    else if (touches(v, place_[w], tolerance * exact, wall))
       contract(e, w, v);
+    else if (same)
+      contract(e, v, w);
   }
   void contract(Index e, Index kept, Index gone) {
     ++contracted_;
     vertex_[gone] = kept;
-    features_[kept].insert(features_[gone].begin(), features_[gone].end());
-    walls_[kept].insert(walls_[gone].begin(), walls_[gone].end());
+    if (kept != gone) ends_[kept].insert(ends_[kept].end(), ends_[gone].begin(), ends_[gone].end());
+    // The kept one may lie at the foot of a wall, on which the place along a tangent matters.
+    if (place_[gone].z > place_[kept].z + 16 * tangent_) place_[kept].z = place_[gone].z;
     for (const Index h : {2 * e, 2 * e + 1}) {
       next_[previous_[h]] = next_[h];
       previous_[next_[h]] = previous_[h];
@@ -208,10 +266,11 @@ class Reduced {
   const Surface& surface_;
   const Subdivision& topology_;
   std::vector<Index> origin_, next_, previous_;
+  double tangent_;  // where curves are tangent, they are told apart from so far on
   std::vector<Index> vertex_, face_;  // with which one each is one
   std::vector<bool> alive_;
-  std::vector<std::set<Index>> features_;  // that balls touch around each vertex
-  std::vector<std::set<Index>> walls_;     // of them, those that end in a wall
+  std::vector<std::vector<Index>> ends_;  // half-edges that begin in each vertex
+  std::vector<Point3> place_;             // of each vertex, at the height of its uppermost edge
   std::vector<std::vector<Index>> out_;
   std::vector<Index> chain_of_;
   std::vector<Chain> chains_;
@@ -261,13 +320,13 @@ class Comparer {
       double least = std::numeric_limits<double>::infinity();
       Index best = none;
       for (const Index w : second) {
-        const double d = distance(a_.surface().vertex(v), b_.surface().vertex(w));
+        const double d = distance(a_.place(v), b_.place(w));
         if (!used[w] && d < least) least = d, best = w;
       }
       if (up_to_tangency_ && best != none && least > tolerance_ && are_tangent(v, best)) {
         ++result_.tangent_vertices;
       } else if (!(least <= tolerance_)) {
-        return "only the first has a vertex" + at(a_.surface().vertex(v)) +
+        return "only the first has a vertex" + at(a_.place(v)) +
                (best == none
                     ? ""
                     : "; the nearest of the second is off by " + std::to_string(std::log10(least)) + " (log10)");
@@ -276,14 +335,14 @@ class Comparer {
       used[best] = true;
     }
     for (const Index w : second) {
-      if (!used[w]) return "only the second has a vertex" + at(b_.surface().vertex(w));
+      if (!used[w]) return "only the second has a vertex" + at(b_.place(w));
     }
     return std::nullopt;
   }
 
   /// Both vertices are at distance R from all features around the other one, but for the tolerance.
   bool are_tangent(Index v, Index w) const {
-    return a_.touches(v, b_.surface().vertex(w), tolerance_) && b_.touches(w, a_.surface().vertex(v), tolerance_);
+    return a_.touches(v, b_.place(w), tolerance_ * exact) && b_.touches(w, a_.place(v), tolerance_ * exact);
   }
   struct Spoke {
     Index left, right, other_end;
@@ -299,7 +358,7 @@ class Comparer {
   std::optional<std::string> compare_around(Index v) {
     const std::vector<Index> a = a_.around(v), b = b_.around(partner_[v]);
     if (a.size() != b.size()) {
-      return "degrees " + std::to_string(a.size()) + " and " + std::to_string(b.size()) + at(a_.surface().vertex(v));
+      return "degrees " + std::to_string(a.size()) + " and " + std::to_string(b.size()) + at(a_.place(v));
     }
     for (std::size_t shift = 0; shift < b.size(); ++shift) {
       bool equal = true;
@@ -310,7 +369,7 @@ class Comparer {
       for (std::size_t i = 0; i < a.size(); ++i) pair_faces(a[i], b[(i + shift) % b.size()]);
       return std::nullopt;
     }
-    std::string text = "edges differ around the vertex" + at(a_.surface().vertex(v)) + ":";
+    std::string text = "edges differ around the vertex" + at(a_.place(v)) + ":";
     for (const bool second : {false, true}) {
       text += second ? " /" : "";
       for (const Index h : second ? b : a) {
@@ -387,10 +446,6 @@ class Comparer {
 };
 
 }  // namespace
-
-Comparison compare_strict(const Surface& first, const Surface& second, double tolerance) {
-  return Comparer(first, second, tolerance, false).run();
-}
 
 Comparison compare(const Surface& first, const Surface& second, double tolerance) {
   const Comparison strict = Comparer(first, second, tolerance, false).run();

@@ -29,7 +29,6 @@ struct Comparison {
   int tangent_vertices = 0;          ///< pairs of vertices farther apart than the tolerance
   std::array<int, 2> short_edges{};  ///< edges taken for a vertex, in the first and in the second
 };
-Comparison compare_strict(const Surface& first, const Surface& second, double tolerance);
 Comparison compare(const Surface& first, const Surface& second, double tolerance);
 
 }  // namespace krepl::test
