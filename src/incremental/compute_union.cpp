@@ -20,7 +20,8 @@ bool is_about(const std::array<Index, 2>& label, const Arc& arc) {
 
 /// Where a stretch crosses an arc at an angle that tells the place.
 std::optional<Real> crossing(const Arc& stretch, const Arc& arc, Real weld) {
-  const Real width = stretch.end - stretch.begin, size = flat_distance(stretch.point(stretch.begin), stretch.point(stretch.end));
+  const Real width = stretch.end - stretch.begin,
+             size = flat_distance(stretch.point(stretch.begin), stretch.point(stretch.end));
   if (!stretch.box.meets(arc.box)) return std::nullopt;
   const auto near = PlanarMap::passes(arc, stretch.point((stretch.begin + stretch.end) / 2), size);
   if (!near) return std::nullopt;
@@ -31,7 +32,8 @@ std::optional<Real> crossing(const Arc& stretch, const Arc& arc, Real weld) {
     const Vector d = (1 / (2 * step)) * (stretch.point(t + step) - stretch.point(t - step)),
                  e = (1 / (2 * arc_step)) * (arc.point(s + arc_step) - arc.point(s - arc_step));
     const Real turn = d.x * e.y - d.y * e.x;
-    if (!(std::fabs(turn) > 0x1p-12L * std::sqrt((d.x * d.x + d.y * d.y) * (e.x * e.x + e.y * e.y)))) return std::nullopt;
+    if (!(std::fabs(turn) > 0x1p-12L * std::sqrt((d.x * d.x + d.y * d.y) * (e.x * e.x + e.y * e.y))))
+      return std::nullopt;
     const Real dt = (off.x * e.y - off.y * e.x) / turn, ds = (off.x * d.y - off.y * d.x) / turn;
     t += dt, s += ds;
     if (!(t >= stretch.begin - width && t <= stretch.end + width && s >= std::min(arc.begin, arc.end) - arc_step &&
@@ -309,8 +311,8 @@ bool Union::rejoin(std::vector<Arc>& arcs) const {
   return found;
 }
 
-/// The part that is highest over a place. Among equals the first, but of two edges in one line the one of which the other may
-/// be a part.
+/// The part that is highest over a place. Among equals the first, but of two edges in one line the one of which the
+/// other may be a part.
 Index Union::label(Vector place) const {
   Real best = below_everything;
   std::vector<std::pair<Real, Index>> found;

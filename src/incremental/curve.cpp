@@ -13,7 +13,8 @@ namespace {
 /// Directions that differ by less are parallel or coplanar.
 constexpr Real parallel = 1e-13L;
 
-/// What rises above a plane by less only touches it: where exactly they would cross, rounding decides, and it is far off.
+/// What rises above a plane by less only touches it: where exactly they would cross, rounding decides, and it is far
+/// off.
 Real flush(const Parts& parts) { return 0x1p-54L * parts.scale(); }
 
 /// The half of the unit circle with positive sine from turn -1, where the cosine is 1, to turn 1: rational, since

@@ -50,8 +50,7 @@ TrianglePart triangle_part(const TerrainWindow& window, const TerrainWindow::Fac
 
 }  // namespace
 
-Parts::Parts(const Terrain& terrain, double radius)
-    : radius_(radius), scale_(std::max(radius, terrain.extent())) {
+Parts::Parts(const Terrain& terrain, double radius) : radius_(radius), scale_(std::max(radius, terrain.extent())) {
   TerrainWindow window;
   const double margin = terrain.extent();
   window.fill(terrain, {terrain.lowest().x - margin, terrain.lowest().y - margin},

@@ -71,8 +71,8 @@ class Parts {
   bool share_corner(Index first, Index second) const;
   /// True if both are edges in one line of space.
   bool are_in_one_line(Index first, Index second) const;
-  /// Neighbours: their patches meet in a seam where they touch the same place. Two faces need an edge in common: such as lie
-  /// one on the other in one plane do not continue each other.
+  /// Neighbours: their patches meet in a seam where they touch the same place. Two faces need an edge in common: such
+  /// as lie one on the other in one plane do not continue each other.
   bool continue_smoothly(Index first, Index second) const;
   /// From a point to the triangle and everything straight below it, which is convex. A semi-krepl is what is nearer
   /// than R.

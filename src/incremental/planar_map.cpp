@@ -132,8 +132,8 @@ std::optional<Fault> PlanarMap::order_around(Index v) {
   for (const Index h : around_[v]) reach.push_back(arcs_[h / 2].reach);
   std::sort(reach.begin(), reach.end());
   reach.erase(std::unique(reach.begin(), reach.end()), reach.end());
-  // Curves that are tangent part with the square of the distance, so the circle is as large as it can be: as the shortest
-  // arc, then, if others are tangent that close, as longer ones, where shorter arcs count as they point.
+  // Curves that are tangent part with the square of the distance, so the circle is as large as it can be: as the
+  // shortest arc, then, if others are tangent that close, as longer ones, where shorter arcs count as they point.
   for (const Real most : reach) {
     for (const Real share : {0.3L, 0.03L, 0.003L, 0.0003L, 0.9L}) {
       if (turn_order(v, share * most)) return std::nullopt;

@@ -281,8 +281,8 @@ class Search {
     const Real zero = at(t) >= nothing ? t : reach(t, inward, other, [&](Real x) { return at(x) >= nothing; });
     Real in = reach(zero, inward, other, [&](Real x) { return at(x) >= tolerance_.touch; });
     const Real out = reach(zero, -inward, at_end ? end_ : begin_, [&](Real x) { return at(x) <= -tolerance_.touch; });
-    // Zero for a stretch, not along a tangent: something else touches the ball there, too, and what is open is as much as on the
-    // other side.
+    // Zero for a stretch, not along a tangent: something else touches the ball there, too, and what is open is as much
+    // as on the other side.
     if (std::fabs(at(zero + (in - zero) / 4)) < tolerance_.touch / 100) {
       const Real as_much = zero + 2 * (zero - out);
       in = inward > 0 ? std::min(in, as_much) : std::max(in, as_much);

@@ -313,9 +313,9 @@ std::optional<PointOf<Real>> Cells<Real>::crossing_of_edges(const Turn& t, const
   return inside && shows_at(t.before, p) && shows_at(t.after, p) ? std::optional(p) : std::nullopt;
 }
 
-/// Two cylinders whose edges cross, and nothing else: each of the two curves along which they are equally high runs through
-/// the crossing from wall to wall of the cylinders. With the walls outside, so do the four ends, and the four turns are
-/// where they leave.
+/// Two cylinders whose edges cross, and nothing else: each of the two curves along which they are equally high runs
+/// through the crossing from wall to wall of the cylinders. With the walls outside, so do the four ends, and the four
+/// turns are where they leave.
 template <class Real>
 bool Cells<Real>::settle_crossing(const Box& box) {
   const Turn& t = turns_[0];

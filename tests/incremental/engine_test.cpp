@@ -278,8 +278,10 @@ void remove_last_edge(Surface& s) {
   const auto h = Subdivision::Index(t.origin.size() - 2), g = h + 1;
   const Subdivision::Index left = t.face[h], right = t.face[g];
   for (auto& next : t.next) {
-    if (next == h && t.next[g] != h) next = t.next[g];
-    else if (next == g && t.next[h] != g) next = t.next[h];
+    if (next == h && t.next[g] != h)
+      next = t.next[g];
+    else if (next == g && t.next[h] != g)
+      next = t.next[h];
   }
   for (auto& f : t.face) f = f == right ? left : f;
   for (auto* array : {&t.origin, &t.next, &t.face}) array->resize(h);
@@ -301,25 +303,30 @@ TEST(SurfaceComparison, SeesMutations) {
   const Subdivision& t = surface->subdivision();
   for (Subdivision::Index v = 0; v < t.vertex_count; ++v) {
     const Point3 p = surface->vertex(v);
-    const std::string which = "vertex at " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z);
+    const std::string which =
+        "vertex at " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z);
     for (const auto along : {&Point3::x, &Point3::y, &Point3::z}) {
       const char axis = along == &Point3::x ? 'x' : along == &Point3::y ? 'y' : 'z';
-      EXPECT_TRUE(differs([&](Surface& s) { opened(s, Places{})[v].*along += 10 * tolerance; })) << which << " along " << axis;
-      EXPECT_FALSE(differs([&](Surface& s) { opened(s, Places{})[v].*along += 0.5 * tolerance; })) << which << " along " << axis;
+      EXPECT_TRUE(differs([&](Surface& s) { opened(s, Places{})[v].*along += 10 * tolerance; }))
+          << which << " along " << axis;
+      EXPECT_FALSE(differs([&](Surface& s) { opened(s, Places{})[v].*along += 0.5 * tolerance; }))
+          << which << " along " << axis;
     }
   }
   for (Subdivision::Index f = 1; f < t.face_count(); ++f) {
     EXPECT_TRUE(differs([&](Surface& s) {
       auto& label = opened(s, Labels{})[f];
       label = label == 0 ? 1 : 0;
-    })) << "face " << f;
+    })) << "face "
+        << f;
   }
   for (Subdivision::Index e = 0; e < t.edge_count(); ++e) {
     const bool is_seam = surface->edge(e).kind == Surface::EdgeKind::seam;
     if (surface->edge(e).kind == Surface::EdgeKind::rim) continue;
     EXPECT_TRUE(differs([&](Surface& s) {
       opened(s, Styles{})[e] ^= std::uint8_t(int(Surface::EdgeKind::seam) ^ int(Surface::EdgeKind::valley));
-    })) << "edge " << e << is_seam;
+    })) << "edge "
+        << e << is_seam;
   }
   EXPECT_TRUE(differs(remove_last_edge));
 }
@@ -339,7 +346,8 @@ TEST(Incremental, EnginesAgreeToTheTolerance) {
   // A seam does so.
   expect_same(mesh({{0, 4, 3}, {2, 4, 0}, {0, 4, 0}, {2, 6, 0}, {0, 6, 0}}, {{0, 1, 2}, {2, 3, 4}}, 2));
   // Faces in one plane overlap, and their edges cross.
-  expect_same(mesh({{7, 0, 0}, {3, 6, 1}, {7, 4, 2}, {3, 4, 0}, {4, 5, 1}, {1, 6, 0}}, {{0, 1, 2}, {3, 4, 5}}, std::sqrt(0.5)));
+  expect_same(
+      mesh({{7, 0, 0}, {3, 6, 1}, {7, 4, 2}, {3, 4, 0}, {4, 5, 1}, {1, 6, 0}}, {{0, 1, 2}, {3, 4, 5}}, std::sqrt(0.5)));
   // Edges overlap in one line, from a common end.
   expect_same(mesh({{3, 6, 0}, {7, 7, 0}, {7, 6, 0}, {7, 2, 0}, {5, 4, 1}}, {{0, 1, 2}, {3, 4, 1}}, 0.75));
 }

@@ -84,8 +84,8 @@ class Reduced {
 
   Point3 place(Index v) const { return place_[v]; }
 
-  /// A ball about p touches what balls touch beside the vertex, at seams at one place, within the tolerance. What meets a wall
-  /// there may do so further down than the vertex, but not all of it unless heights do not count.
+  /// A ball about p touches what balls touch beside the vertex, at seams at one place, within the tolerance. What meets
+  /// a wall there may do so further down than the vertex, but not all of it unless heights do not count.
   bool touches(Index v, Point3 p, double tolerance, bool any_height = false) const {
     bool top = any_height;
     for (const Index h : ends_[v]) {
@@ -172,8 +172,8 @@ class Reduced {
     const auto points = surface_.curve(h / 2, 3);
     return h % 2 == 0 ? points.front() : points.back();
   }
-  /// Straight below p, too, there is a ball that touches both features of such an edge. It is found by the one that rises less
-  /// steeply.
+  /// Straight below p, too, there is a ball that touches both features of such an edge. It is found by the one that
+  /// rises less steeply.
   bool touches_below(Index h, Point3 p, double tolerance) const {
     const auto feature = surface_.edge(h / 2).feature;
     LongPoint c{p.x, p.y, end_of(h).z};
@@ -266,7 +266,7 @@ class Reduced {
   const Surface& surface_;
   const Subdivision& topology_;
   std::vector<Index> origin_, next_, previous_;
-  double tangent_;  // where curves are tangent, they are told apart from so far on
+  double tangent_;                    // where curves are tangent, they are told apart from so far on
   std::vector<Index> vertex_, face_;  // with which one each is one
   std::vector<bool> alive_;
   std::vector<std::vector<Index>> ends_;  // half-edges that begin in each vertex
