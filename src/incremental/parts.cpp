@@ -93,10 +93,11 @@ Parts::Parts(const Terrain& terrain, double radius) : radius_(radius), scale_(st
 }
 
 bool Parts::continue_smoothly(Index first, Index second) const {
-  if (parts_[first].kind != FeatureKind::face || parts_[second].kind != FeatureKind::face)
-    return share_corner(first, second) || are_in_one_line(first, second);
-  const auto &v = triangle_of(first).vertex, &w = triangle_of(second).vertex;
-  return std::count_if(v.begin(), v.end(), [&](Index i) { return std::find(w.begin(), w.end(), i) != w.end(); }) >= 2;
+  std::size_t common = 0;
+  const std::vector<Index> a = corners(first), b = corners(second);
+  for (const Index v : a) common += std::find(b.begin(), b.end(), v) != b.end();
+  const bool face = parts_[first].kind == FeatureKind::face || parts_[second].kind == FeatureKind::face;
+  return common >= (face ? std::min({a.size(), b.size(), std::size_t(2)}) : 1) || are_in_one_line(first, second);
 }
 
 Real Parts::height(Index part, Vector place) const {
@@ -148,16 +149,12 @@ bool Parts::are_in_one_line(Index first, Index second) const {
   return length(cross(e.direction, f.direction)) <= parallel && length(cross(between, e.direction)) <= parallel * length(between);
 }
 
-bool Parts::share_corner(Index first, Index second) const {
-  const auto corners = [&](Index part) {
-    const Part& p = parts_[part];
-    if (p.kind == FeatureKind::vertex) return std::vector<Index>{p.item};
-    if (p.kind == FeatureKind::edge) return std::vector<Index>{edges_[p.item].a, edges_[p.item].b};
-    const auto& v = triangles_[p.item].vertex;
-    return std::vector<Index>(v.begin(), v.end());
-  };
-  const std::vector<Index> a = corners(first), b = corners(second);
-  return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
+std::vector<Index> Parts::corners(Index part) const {
+  const Part& p = parts_[part];
+  if (p.kind == FeatureKind::vertex) return {p.item};
+  if (p.kind == FeatureKind::edge) return {edges_[p.item].a, edges_[p.item].b};
+  const auto& v = triangles_[p.item].vertex;
+  return {v.begin(), v.end()};
 }
 
 Real Parts::prism_distance(Index triangle, Vector c) const {

@@ -67,18 +67,18 @@ class Parts {
   Real height(Index part, Vector place) const;
   /// Where a ball about c touches the part's plane, line or point.
   Vector contact(Index part, Vector c) const;
-  /// Both have a vertex of the terrain in common.
-  bool share_corner(Index first, Index second) const;
   /// True if both are edges in one line of space.
   bool are_in_one_line(Index first, Index second) const;
-  /// Neighbours: their patches meet in a seam where they touch the same place. Two faces need an edge in common: such
-  /// as lie one on the other in one plane do not continue each other.
+  /// Neighbours: their patches meet in a seam where they touch the same place. A face and another face or an edge need two
+  /// vertices in common: such as lie one on the other in one plane do not continue each other.
   bool continue_smoothly(Index first, Index second) const;
   /// From a point to the triangle and everything straight below it, which is convex. A semi-krepl is what is nearer
   /// than R.
   Real prism_distance(Index triangle, Vector c) const;
 
  private:
+  std::vector<Index> corners(Index part) const;
+
   Real radius_, scale_;
   std::vector<Part> parts_;
   std::vector<TrianglePart> triangles_;

@@ -386,7 +386,7 @@ bool Cells<Real>::settle_star(const Box& box, bool smallest) {
       !std::all_of(turns_.begin(), turns_.end(), [&](const Turn& t) { return stays_wall(t, *found, box); }))
     return false;
   const Point p = found ? *found : least_gap(box);
-  add_vertex(corner_beside(p).value_or(p));
+  add_vertex(known_beside(p));
   return true;
 }
 
@@ -470,6 +470,45 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
     }
   }
   return nearest;
+}
+
+/// Where two walls in one line that meet in a valley are equally high, if that is close to p: the valley is tangent to them.
+template <class Real>
+std::optional<PointOf<Real>> Cells<Real>::level_of_walls(Point p) const {
+  const PatchSet<Real>& patches = envelope_.patches();
+  const Real least = 0x1p-12 * patches.radius();
+  const auto wall_of = [&](Index label) -> const Bound* {
+    for (const Turn& t : turns_) {
+      if (is_wall_of(t, label)) return side_along(t);
+    }
+    return nullptr;
+  };
+  for (const Turn& t : turns_) {
+    if (t.meeting != Meeting::valley) continue;
+    if (patches[t.before].kind != Terrain::FeatureKind::edge || patches[t.after].kind != Terrain::FeatureKind::edge) continue;
+    const Bound *a = wall_of(t.before), *b = wall_of(t.after);
+    if (a == nullptr || b == nullptr || a->type != BoundType::line || b->type != BoundType::line) continue;
+    const Gradient g = envelope_.bound_gradient(*a, p), r = envelope_.rim_gradient(t.before),
+                   s = envelope_.rim_gradient(t.after);
+    const Real size_of_g = size(g), off = a->value(p, patches.square_radius()) / size_of_g;
+    const Gradient across{g.x / size_of_g, g.y / size_of_g}, along{-across.y, across.x};
+    const Point foot{p.x - off * across.x, p.y - off * across.y};
+    const Real rise = (r.x - s.x) * along.x + (r.y - s.y) * along.y;
+    if (absolute(rise) < 0x1p-16) continue;
+    const Real step = (envelope_.axis_height(t.before, foot) - envelope_.axis_height(t.after, foot)) / rise;
+    const Point q{foot.x - step * along.x, foot.y - step * along.y};
+    if (!(absolute(step) < least && absolute(off) < least)) continue;
+    const Real apart = b->value(q, patches.square_radius()) / size(envelope_.bound_gradient(*b, q));
+    if (absolute(apart) <= 4 * envelope_.tolerance()) return q;
+  }
+  return std::nullopt;
+}
+
+/// The place close to p that is known without following curves that are tangent, or p.
+template <class Real>
+PointOf<Real> Cells<Real>::known_beside(Point p) const {
+  if (const std::optional<Point> corner = corner_beside(p)) return *corner;
+  return level_of_walls(p).value_or(p);
 }
 
 template <class Real>

@@ -88,6 +88,8 @@ class Cells {
   bool is_steep() const;
   Point least_gap(const Box& box) const;
   std::optional<Point> corner_beside(Point p) const;
+  std::optional<Point> level_of_walls(Point p) const;
+  Point known_beside(Point p) const;
   std::optional<Point> common_corner(const Box& box) const;
   bool all_reach(Point p) const;
   bool reaches(Index patch, Point p) const;

@@ -101,6 +101,8 @@ class Envelope {
   Real upright_value(const Bound& cone, Point p) const;
   /// Height at which a patch ends in a wall: of the points that a ball touches with a horizontal normal.
   Real rim_height(Index patch, Point p) const;
+  /// Of an edge's line straight below p, beyond its ends too.
+  Real axis_height(Index edge, Point p) const;
   /// The same as written. Beyond an end of an edge by less than is told apart the wall is that of the next edge, in
   /// nearly the same line, unless a sphere is between them.
   Real wall_height(Index patch, Point p) const;
@@ -154,7 +156,6 @@ class Envelope {
   bool is_within(const Bound& bound, const BoxFrame& box, Real least_up = 0) const;
   std::optional<Wall> wall_through(Index patch, const BoxFrame& box) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
-  Real axis_height(Index edge, Point p) const;
   bool precedes(Index a, Index b) const;
   bool lies_in(Index lower, Index upper) const;
   bool hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up = 0, Real allowed = 0) const;

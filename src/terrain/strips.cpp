@@ -161,7 +161,7 @@ std::optional<PointOf<Real>> Cells<Real>::vertex_of_star(const Box& box) {
   turns_.swap(star_);
   std::optional<Point> p;
   if (turns_.size() >= 3 && labels_differ() && !(finer_ != nullptr && is_steep())) p = star_point(box);
-  if (p) p = corner_beside(*p).value_or(*p);
+  if (p) p = known_beside(*p);
   turns_.swap(star_);
   return p;
 }

@@ -44,7 +44,7 @@ class Reduced {
         origin_(topology_.origin),
         next_(topology_.next),
         previous_(next_.size()),
-        tangent_(std::sqrt(tolerance * std::max(surface.radius(), surface.terrain().extent()))) {
+        tangent_(4 * std::sqrt(tolerance * std::max(surface.radius(), surface.terrain().extent()))) {
     const auto count = Index(next_.size());
     for (Index h = 0; h < count; ++h) previous_[next_[h]] = h;
     vertex_.resize(topology_.vertex_count);
@@ -196,7 +196,7 @@ class Reduced {
     const Index v = find(topology_.origin[2 * e]), w = find(topology_.origin[2 * e + 1]);
     const bool same = off(points.back()) <= tolerance;
     if (!same && !up_to_tangency) return;
-    const bool wall = std::fabs(place_[v].z - place_[w].z) > 16 * tangent_;  // one is at the foot, the other further up
+    const bool wall = std::fabs(place_[v].z - place_[w].z) > 4 * tangent_;  // one is at the foot, the other further up
     if (touches(w, place_[v], tolerance * exact, wall))
       contract(e, v, w);
     else if (touches(v, place_[w], tolerance * exact, wall))
@@ -209,7 +209,7 @@ class Reduced {
     vertex_[gone] = kept;
     if (kept != gone) ends_[kept].insert(ends_[kept].end(), ends_[gone].begin(), ends_[gone].end());
     // The kept one may lie at the foot of a wall, on which the place along a tangent matters.
-    if (place_[gone].z > place_[kept].z + 16 * tangent_) place_[kept].z = place_[gone].z;
+    if (place_[gone].z > place_[kept].z + 4 * tangent_) place_[kept].z = place_[gone].z;
     for (const Index h : {2 * e, 2 * e + 1}) {
       next_[previous_[h]] = next_[h];
       previous_[next_[h]] = previous_[h];
