@@ -78,15 +78,25 @@ bool Cells<Real>::subdivide(const Cell& cell, std::size_t first, int depth) {
   const bool smallest = cell.box.larger_side() <= envelope_.smallest_cell();
   bool done = true;
   const std::span<Index> kept(stack_.data() + begin, stack_.size() - begin);
-  if ((!smallest && kept.size() > most_settled) || !settle(cell, kept, smallest)) {
+  const bool few = smallest || kept.size() <= most_settled;
+  if (!few || !settle(cell, kept, smallest)) {
     stack_.erase(std::remove(stack_.begin() + std::ptrdiff_t(begin), stack_.end(), none), stack_.end());
-    const std::span<const Index> left(stack_.data() + begin, stack_.size() - begin);
-    done = finer_ != nullptr && left.size() <= most_settled && is_hard(cell.box)
-               ? refine(cell, left)
-               : split(cell, begin, depth, just_asked);
+    if (is_fine<Real> && few) add_seen(begin);
+    const bool hard = finer_ != nullptr && stack_.size() - begin <= most_settled && is_hard(cell.box);
+    if (hard) add_seen(begin);
+    done = hard ? refine(cell, {stack_.data() + begin, stack_.size() - begin}) : split(cell, begin, depth, just_asked);
   }
   stack_.resize(begin);
   return done;
+}
+
+/// Makes candidates of all labels around the cell: some may show there by less than is told apart, and not inside.
+template <class Real>
+void Cells<Real>::add_seen(std::size_t first) {
+  for (const Turn& t : turns_) {
+    if (t.after != none && std::find(stack_.begin() + std::ptrdiff_t(first), stack_.end(), t.after) == stack_.end())
+      stack_.push_back(t.after);
+  }
 }
 
 /// True if double may not tell what is in a cell that has been walked around: in small ones where surfaces meet at
@@ -109,13 +119,8 @@ bool Cells<Real>::refine(const Cell& cell, std::span<const Index> candidates) {
   const auto coordinates = [](Point p) { return PointOf<DoubleDouble>{p.x, p.y}; };
   typename Cells<DoubleDouble>::Cell same{{coordinates(cell.box.low), coordinates(cell.box.high)}, {}};
   std::copy(cell.side, cell.side + 4, same.side);
-  // Also labels that reach into the cell by less than matters in double.
-  std::vector<Index> all(candidates.begin(), candidates.end());
-  for (const Turn& t : turns_) {
-    if (t.after != none && std::find(all.begin(), all.end(), t.after) == all.end()) all.push_back(t.after);
-  }
-  envelope_.finer(all, true);
-  return finer_->run(same, all);
+  envelope_.finer(candidates, true);
+  return finer_->run(same, candidates);
 }
 
 template <class Real>
@@ -173,7 +178,8 @@ bool Cells<Real>::settle(const Cell& cell, std::span<Index> candidates, bool sma
   bool settled = n == 0;
   if (n == 2) settled = settle_arc(cell.box, smallest);
   if (n == 4) settled = settle_crossing(cell.box);
-  if (n >= 3 && !settled) settled = settle_star(cell.box, smallest) || settle_strips(cell.box);
+  if (n >= 3 && !settled)
+    settled = settle_star(cell.box, false) || settle_strips(cell.box) || (smallest && settle_star(cell.box, true));
   if (!settled) return false;
   ++counters_.leaves;
   if (smallest) ++counters_.smallest_cells;

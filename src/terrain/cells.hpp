@@ -70,6 +70,7 @@ class Cells {
   std::optional<Cut> cut_between_vertices(const Box& box) const;
   void add_likely_vertices(const Box& box);
   bool split(const Cell& cell, std::size_t first, int depth, bool just_asked);
+  void add_seen(std::size_t first);
   bool is_hard(const Box& box) const;
   bool refine(const Cell& cell, std::span<const Index> candidates);
   void walk(const Cell& cell);

@@ -16,16 +16,17 @@ template <class Real>
 typename Cells<Real>::Cut Cells<Real>::cut(const Cell& cell, std::span<const Index> candidates) {
   const Box& box = cell.box;
   const bool far = envelope_.is_far();
-  if ((far || is_fine<Real>)&&std::min(box.high.x - box.low.x, box.high.y - box.low.y) >
-      envelope_.smallest_cell() / 64) {
+  const Real width = box.high.x - box.low.x, height = box.high.y - box.low.y;
+  // Cuts are doubles: between the sides there must be some.
+  const Real largest = std::max({absolute(box.low.x), absolute(box.high.x), absolute(box.low.y), absolute(box.high.y)});
+  const Real thinnest = std::max(envelope_.smallest_cell() / 64, 0x1p-50 * largest);
+  if ((far || is_fine<Real>)&&std::min(width, height) > thinnest) {
     if (candidates.size() > most_settled) walk(cell);  // else its turns are known
     if (const std::optional<Cut> between = cut_between_strips(cell)) return *between;
     if (const std::optional<Cut> beside = far ? cut_beside_wall(box) : std::nullopt) return *beside;
   }
-  const Real width = box.high.x - box.low.x, height = box.high.y - box.low.y;
   const Gradient stretch =
       far ? steepness(box) : Gradient{1, 1};  // cells are square on the surface: it is steep near walls
-  const Real thinnest = envelope_.smallest_cell() / 64;
   Cut best{height <= thinnest || (width > thinnest && width * stretch.x >= height * stretch.y), 0};
   best.at = double(best.vertical ? box.low.x + near_middle * width : box.low.y + near_middle * height);
   if (candidates.size() > most_settled || std::min(width, height) <= thinnest) return best;

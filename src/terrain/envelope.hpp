@@ -18,6 +18,13 @@ struct LineCrossing {
   Meeting meeting;
 };
 
+/// A wall in which a body ends, and how far inside it that body is above another patch.
+template <class Real>
+struct WallBesideOf {
+  BoundOf<Real> outline;
+  Real inset;
+};
+
 /// The upper envelope of a set of patches over a region: which candidates can appear at all, which one is highest at a
 /// place, and in what order they appear along a line.
 ///
@@ -111,6 +118,8 @@ class Envelope {
   Gradient bound_gradient(const Bound& bound, Point p) const;
   /// The one wall in which the upper patch's body ends within the box, if that wall is all above the lower patch.
   std::optional<Bound> wall_above(Index upper, Index lower, const Box& box) const;
+  /// The same, or the one wall that rises above the lower patch not far inside of it.
+  std::optional<WallBesideOf<Real>> wall_beside(Index upper, Index lower, const Box& box) const;
   /// Of extended_height, but continued where the patch's surface has ended.
   Real clamped_height(Index patch, Point p) const;
   /// The side of the patch's domain beside p that ends in a wall; null if there is none so near.
@@ -139,6 +148,7 @@ class Envelope {
   };
   Range aside_range(Index edge, const Box& box, Where where) const;
   Range slope_across(Index edge, const Box& box, Where where) const;
+  bool misses(const Line& line, Real t0, Real t1, Index i) const;
   void section(const Line& line, Real t0, Index l0, Real t1, Index l1, std::size_t first, int depth);
   void drop_slivers(const Line& line, Index start, std::size_t first, std::vector<LineCrossing>& crossings) const;
   bool gap(const Line& line, Real t0, Index l0, Real t1, Index l1) const;

@@ -1,7 +1,11 @@
 #include "terrain/patches.hpp"
 
+
+#include <cmath>
 #include <tuple>
 #include <utility>
+
+#include "kernel/orientation.hpp"
 
 namespace krepl::terrain {
 
@@ -346,12 +350,36 @@ void PatchSet<Real>::examine(Index i) {
     if (l.side == Limit::Side::left && (e.hi_face == none || l.b < e.hi)) e.hi = l.b, e.hi_up = l.up, e.hi_face = f;
     if (l.side == Limit::Side::right && (e.lo_face == none || l.b > e.lo)) e.lo = l.b, e.lo_up = l.up, e.lo_face = f;
   }
+  if (is_below_another(i)) return;
   const Real sine = e.hi * e.lo_up - e.lo * e.hi_up, cosine = e.hi * e.lo + e.hi_up * e.lo_up;
   if (sine > flat_angle || (cosine < 0 && e.hi > e.lo)) {
     e.shape = EdgeShape::convex;
   } else if (sine >= -flat_angle && cosine > 0 && e.lo_face != none && e.hi_face != none) {
     e.shape = EdgeShape::flat;
   }
+}
+
+/// True if another edge runs above this one from one of its ends, in its vertical plane and at least as far: the sum with that
+/// one alone is higher wherever a ball touches this one, but by next to nothing beside the wall they share.
+template <class Real>
+bool PatchSet<Real>::is_below_another(Index i) const {
+  if (window_->is_graph()) return false;
+  const auto& edge = window_->edges()[i];
+  for (const Index v : {edge.a, edge.b}) {
+    const Point3 from = window_->vertices()[v].at, to = window_->vertices()[edge.a + edge.b - v].at;
+    const bool along_x = std::fabs(to.x - from.x) >= std::fabs(to.y - from.y);
+    const auto way = [&](Point3 p) { return along_x ? p.x : p.y; };
+    const bool forward = way(to) > way(from);
+    for (const Index j : window_->edges_of_vertex(v)) {
+      const auto& other = window_->edges()[j];
+      const Point3 end = window_->vertices()[other.a + other.b - v].at;
+      if (j == i || (forward ? way(end) < way(to) : way(end) > way(to))) continue;
+      if (kernel::orientation({from.x, from.y}, {to.x, to.y}, {end.x, end.y}) != 0) continue;
+      const int above = kernel::orientation({way(from), from.z}, {way(to), to.z}, {way(end), end.z});
+      if (forward ? above > 0 : above < 0) return true;
+    }
+  }
+  return false;
 }
 
 /// The numbers of a bound; what it means to its patch is left open.

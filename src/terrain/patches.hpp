@@ -163,6 +163,7 @@ class PatchSet {
   void place(Index edge);
   Limit limit(Index edge, Index face) const;
   void examine(Index edge);
+  bool is_below_another(Index edge) const;
   /// Of the vertex asked for last.
   const NormalPolygon& normals_of(Index vertex) const;
   void add_face(Index face);

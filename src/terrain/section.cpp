@@ -82,6 +82,21 @@ void Envelope<Real>::drop_slivers(const Line& line, Index start, std::size_t fir
 }
 
 /// stack_[first ..]: the candidates of the stretch around this one.
+/// True if a stretch of a line is nowhere inside the strip or disc of a cylinder or sphere, as where it runs along its rim.
+template <class Real>
+bool Envelope<Real>::misses(const Line& line, Real t0, Real t1, Index i) const {
+  const Patch& p = patches_[i];
+  const Real radius = patches_.radius();
+  if (p.kind == Terrain::FeatureKind::face) return false;
+  if (p.kind == Terrain::FeatureKind::vertex) return absolute(line.at - (line.vertical ? p.at.x : p.at.y)) >= radius;
+  const auto aside = [&](Real t) {
+    const Point at = line.point(t);
+    return (at.y - p.at.y) * p.gx - (at.x - p.at.x) * p.gy;
+  };
+  const Real a = aside(t0), b = aside(t1);
+  return std::min(a, b) >= radius || std::max(a, b) <= -radius;
+}
+
 template <class Real>
 void Envelope<Real>::section(const Line& line, Real t0, Index l0, Real t1, Index l1, std::size_t first, int depth) {
   const std::size_t begin = stack_.size();
@@ -110,7 +125,11 @@ void Envelope<Real>::section(const Line& line, Real t0, Index l0, Real t1, Index
     stack_.resize(begin);
     return;
   }
-  if (l0 == l1 && l0 == none && stack_.size() == begin) return;
+  if (l0 == l1 && l0 == none) {
+    const auto keeps_out = [&](Index c) { return misses(line, t0, t1, c); };
+    stack_.erase(std::remove_if(stack_.begin() + std::ptrdiff_t(begin), stack_.end(), keeps_out), stack_.end());
+    if (stack_.size() == begin) return;
+  }
   if (l0 != l1 && (tiny || (!others && single_crossing(line, t0, l0, t1, l1)))) {
     Meeting how = Meeting::rim;
     const Real t = tiny ? (t0 + t1) / 2 : locate(line, t0, l0, t1, l1, how);
@@ -131,7 +150,16 @@ void Envelope<Real>::section(const Line& line, Real t0, Index l0, Real t1, Index
     return;
   }
   const Real tm = t0 + (t1 - t0) / 2;
-  const Index lm = winner(line.point(tm), left());
+  Index lm = winner(line.point(tm), left());
+  if (lm == none) {
+    // Where the body of a label at an end lies there is something: two patches next to each other may hide each other but for
+    // less than is told apart.
+    Real highest = below_everything;
+    for (const Index l : ends) {
+      const Real height = l == none ? below_everything : patches_.body_height(l, line.point(tm));
+      if (height > highest) highest = height, lm = l;
+    }
+  }
   section(line, t0, l0, tm, lm, begin, depth + 1);
   section(line, tm, lm, t1, l1, begin, depth + 1);
   stack_.resize(begin);

@@ -226,14 +226,17 @@ bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
     if (b.partner == none ? !b.rim : !is_seen(b.partner)) continue;
     if (hides_beyond(side(b), b.type == BoundType::disc ? 0 : 1, b.partner)) return true;
   }
-  // At the foot of another one's wall.
+  // At the foot of another one's wall, or beside it where that one rises above the patch only further inside.
   for (const Turn& t : turns_) {
-    if (t.after == none || t.meeting != Meeting::rim) continue;
-    const std::optional<Bound> wall = envelope_.wall_above(t.after, patch, box);
-    if (!wall) continue;
-    Bound outside = *wall;
+    if (t.after == none) continue;
+    const std::optional<WallBesideOf<Real>> wall = envelope_.wall_beside(t.after, patch, box);
+    if (!wall || wall->inset > (t.meeting == Meeting::rim ? Real(0) : box.larger_side())) continue;
+    Bound outside = wall->outline;
     outside.negative = !outside.negative;
-    if (hides_beyond(side(outside), outside.type == BoundType::disc ? 0 : 1, t.after)) return true;
+    const bool round = outside.type == BoundType::disc;
+    Function g = side(outside);
+    g.value = g.value - wall->inset * (round ? 2 * patches.radius() : Real(1));
+    if (hides_beyond(g, round ? 0 : 1, t.after)) return true;
   }
   return false;
 }

@@ -98,6 +98,19 @@ Real Envelope<Real>::inset_of(Index body, const Wall& wall, const Box& box, cons
   return square < 0.5 ? patches_.radius() * square / 2 * (1 + square) : Real(std::numeric_limits<double>::infinity());
 }
 
+template <class Real>
+std::optional<WallBesideOf<Real>> Envelope<Real>::wall_beside(Index upper, Index lower, const Box& box) const {
+  if (const std::optional<Bound> above = wall_above(upper, lower, box)) return WallBesideOf<Real>{*above, 0};
+  const BoxFrame frame(box);
+  const std::optional<Wall> wall = wall_through(upper, frame);
+  if (!wall) return std::nullopt;
+  const Plane plane = support(lower, frame);
+  const Real hx = plane.gradient.x * box.half_x(), hy = plane.gradient.y * box.half_y(), h = plane.height;
+  const Real inset = inset_of(upper, *wall, box, {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy});
+  if (!is_finite(inset)) return std::nullopt;
+  return WallBesideOf<Real>{wall->outline, inset};
+}
+
 /// True if what shows of a patch beyond the wall of a body that hides the rest is below another body: it lies in a
 /// strip along the patch's own wall, above which heights rise like square roots.
 template <class Real>
