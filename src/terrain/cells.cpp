@@ -445,14 +445,18 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
     if (t.after != none) steepest = std::max(steepest, patches[t.after].q);
   }
   // Sides that part like circles with slopes between them are so close together for that long.
-  Real least =
-      std::max(0x1p-12 * patches.radius(), 4 * steepest * square_root(patches.radius() * envelope_.rim_width()));
+  const Real beside_wall = 4 * steepest * square_root(patches.radius() * envelope_.rim_width());
+  Real least = std::max(0x1p-12 * patches.radius(), beside_wall);
   for (std::size_t i = 0; i < turns_.size(); ++i) {
     const Turn &from = turns_[i], &to = turns_[(i + 1) % turns_.size()];
     const Index patch = from.after;
     if (patch == none || from.before == to.after) continue;
     const auto is_at_foot = [&](const Turn& t) { return t.meeting == Meeting::rim && !is_wall_of(t, patch); };
-    const auto own_side = [&](const Turn& t) { return is_at_foot(t) ? envelope_.rim_at(patch, t.at) : side_along(t); };
+    const auto is_valley = [&](const Turn& t) { return t.meeting == Meeting::valley; };
+    // A valley may run beside the patch's wall from the corner on.
+    const auto own_side = [&](const Turn& t) {
+      return is_at_foot(t) || is_valley(t) ? envelope_.rim_at(patch, t.at) : side_along(t);
+    };
     const Bound *a = own_side(from), *b = own_side(to);
     // A side that comes out from under a higher wall.
     const bool out_of_foot = is_at_foot(from) != is_at_foot(to);
@@ -468,6 +472,11 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
         return absolute(side.value(c, patches.square_radius())) <= 4 * envelope_.tolerance() * (1 + norm(g.x, g.y));
       };
       const auto passes = [&](const Turn& t) {
+        if (is_valley(t)) {
+          const Index other = t.before == patch ? t.after : t.before;
+          const Real off = envelope_.clamped_height(other, c) - envelope_.rim_height(patch, c);
+          return apart < beside_wall && absolute(off) <= 4 * envelope_.tolerance() * (1 + size(patches.gradient(other, c)));
+        }
         if (!is_at_foot(t)) return true;
         const Bound* wall = side_along(t);
         return wall != nullptr && ends(*wall);
