@@ -140,6 +140,24 @@ bool Envelope<Real>::lies_in(Index lower, Index upper) const {
   return holds(middle, (top_a + top_b) / 2, tolerance_) && holds(a, top_a, -tolerance) && holds(b, top_b, -tolerance);
 }
 
+template <class Real>
+bool Envelope<Real>::is_image(Index image, Index original, const Bound& plane) const {
+  const Patch &c = patches_[image], &k = patches_[original];
+  if (plane.type != BoundType::line || c.kind != k.kind || c.kind == FeatureKind::face) return false;
+  const Real tolerance = tolerance_ / 4;
+  // True if p lies on the negative side, and q is its image.
+  const auto maps = [&](Point p, Real p_z, Point q, Real q_z) {
+    const Real value = plane.value(p, 0), twice = 2 * value;
+    const Point r{p.x - twice * plane.nx, p.y - twice * plane.ny};
+    return plane.sign() * value <= tolerance && norm(r.x - q.x, r.y - q.y) <= tolerance && absolute(p_z - q_z) <= noise_;
+  };
+  if (c.kind == FeatureKind::vertex) return maps(k.at, k.z, c.at, c.z);
+  const Point a = k.at, b = k.end();
+  const Real a_z = k.z, b_z = k.end_z();
+  return (maps(a, a_z, c.at, c.z) && maps(b, b_z, c.end(), c.end_z())) ||
+         (maps(a, a_z, c.end(), c.end_z()) && maps(b, b_z, c.at, c.z));
+}
+
 /// True if one of the upper features hides the patch by the way the two lie to each other.
 template <class Real>
 bool Envelope<Real>::hidden_by_feature(Index lower, std::span<const Index> uppers, const BoxFrame& frame) const {

@@ -233,6 +233,10 @@ bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
     if (!wall || wall->inset > (t.meeting == Meeting::rim ? Real(0) : box.larger_side())) continue;
     Bound outside = wall->outline;
     outside.negative = !outside.negative;
+    if (wall->inset == 0 && std::any_of(turns_.begin(), turns_.end(), [&](const Turn& other) {
+          return other.after != none && other.after != t.after && envelope_.is_image(patch, other.after, outside);
+        }))
+      return true;
     const bool round = outside.type == BoundType::disc;
     Function g = side(outside);
     g.value = g.value - wall->inset * (round ? 2 * patches.radius() : Real(1));
