@@ -287,6 +287,30 @@ bool Cells<Real>::stays_wall(const Turn& from, Point to, const Box& box) const {
   return most <= 64 * envelope_.tolerance() * (1 + steepest);
 }
 
+/// True if a valley from a turn to another place in it stays one: where it comes down to the height at which one of its patches
+/// ends in a wall, that wall goes on. The other patch is concave, so that it is no lower between the two ends but for how far the
+/// valley is from the straight line.
+template <class Real>
+bool Cells<Real>::stays_valley(const Turn& from, Point to, const Box& box) const {
+  if (from.meeting != Meeting::valley) return true;
+  const PatchSet<Real>& patches = envelope_.patches();
+  const Real dx = to.x - from.at.x, dy = to.y - from.at.y, sagitta = (dx * dx + dy * dy) / (4 * patches.radius());
+  for (const Index upright : {from.before, from.after}) {
+    const Index other = upright == from.before ? from.after : from.before;
+    if (upright == none || other == none || patches[upright].kind == Terrain::FeatureKind::face) continue;
+    const std::span<const Bound> sides = patches.bounds(upright);
+    if (std::none_of(sides.begin(), sides.end(), [&](const Bound& b) { return b.rim && !envelope_.covers(b, box); })) continue;
+    const Gradient wall = envelope_.rim_gradient(upright);
+    for (const Point p : {from.at, to}) {
+      const Gradient g = patches.gradient(other, p);
+      const Real slope = norm(g.x - wall.x, g.y - wall.y);
+      const Real above = envelope_.clamped_height(other, p) - envelope_.rim_height(upright, p);
+      if (above - slope * sagitta < -64 * envelope_.tolerance() * (1 + slope)) return false;
+    }
+  }
+  return true;
+}
+
 template <class Real>
 bool Cells<Real>::are_coplanar(Index a, Index b, const Box& box) const {
   const PatchSet<Real>& patches = envelope_.patches();
@@ -345,7 +369,7 @@ template <class Real>
 bool Cells<Real>::settle_arc(const Box& box, bool smallest) {
   const Turn &a = turns_[0], &b = turns_[1];
   if (a.meeting != b.meeting) return settle_star(box, smallest);  // where a valley ends in a wall
-  if (!smallest && !(curve_is_simple(a, box) && stays_wall(a, b.at, box))) return false;
+  if (!smallest && !(curve_is_simple(a, box) && stays_wall(a, b.at, box) && stays_valley(a, b.at, box))) return false;
   if (const std::optional<Point> p = crossing_of_edges(a, box))
     add_vertex(*p);
   else

@@ -105,6 +105,7 @@ class Cells {
   bool curve_is_simple(const Turn& turn, const Box& box) const;
   Range slope_of_difference(Index a, Index b, const Box& box, Gradient direction) const;
   bool stays_wall(const Turn& from, Point to, const Box& box) const;
+  bool stays_valley(const Turn& from, Point to, const Box& box) const;
   bool cannot_close(Index a, Index b, const Box& box) const;
   bool are_coplanar(Index a, Index b, const Box& box) const;
   bool sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const;

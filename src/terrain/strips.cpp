@@ -223,6 +223,7 @@ bool Cells<Real>::settle_strips(const Box& box) {
   };
   for (std::size_t i = 0; i < n; ++i) {
     if (!curve_is_simple(turns_[i], box) || !stays_wall(turns_[i], strand(i).end, box)) return false;
+    if (mate_[i] >= 0 && !stays_valley(turns_[i], strand(i).end, box)) return false;
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (mate_[i] >= 0 && mate_[i] < int(i)) continue;
