@@ -264,7 +264,7 @@ Result<MillPlan> make_plan(const MillVerbOptions& o) {
   return plan;
 }
 
-void tell_strategy(const MillReport& r, Strategy strategy, Session& session) {
+void tell_strategy(const MillReport& r, Strategy strategy, bool by_scallop, Session& session) {
   if (strategy == Strategy::scallop || strategy == Strategy::rest) {
     session.detail(fmt::format("passes     {}, {} more where the scallop would be exceeded; {} points along them", r.passes,
                                r.extra_passes, r.curve_points));
@@ -286,15 +286,13 @@ void tell_strategy(const MillReport& r, Strategy strategy, Session& session) {
   session.detail(fmt::format("passes     {}, {:.6g} apart, at {:.6g} degrees", r.passes, r.step_over, r.angle));
   if (r.levels > 0)
     session.detail(fmt::format("levels     {}; {} stretches are too short to be entered", r.levels, r.skipped_cuts));
-  if (r.sections > 0)
-    session.detail(
-        fmt::format("scallops   {} sections looked at, {} pieces of passes added, {} sections where more is left",
-                    r.sections, r.extra_passes, r.uneven_sections));
+  if (by_scallop)
+    session.detail(fmt::format("scallops   {} pieces of passes added, {} places where the scallop is not proven", r.extra_passes, r.open_places));
 }
 
 void tell(const MillReport& r, Strategy strategy, std::size_t lines, const MillVerbOptions& o, const Stopwatch& total,
           Session& session) {
-  tell_strategy(r, strategy, session);
+  tell_strategy(r, strategy, !o.scallop.empty(), session);
   session.summary(
       fmt::format(
           "{} cuts: {} lines, {} arcs, {} rapid moves; {:.6g} {} cut, {:.6g} {} rapid, about {:.1f} min; {} lines of "

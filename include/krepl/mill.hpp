@@ -63,9 +63,9 @@ struct ParallelOptions {
   MillMotion motion;
   /// Distance of neighbouring passes in the plane, or, if 0, from `scallop`.
   double step_over = 0;
-  /// For balls: greatest height of what is left between passes, tolerance included. Where the surface is steep across the passes
-  /// or hollow, gaps are halved, up to four times, until it holds in cross-sections half a pass distance apart; what
-  /// then remains (next to walls and in sharp valleys along the passes) is counted in the report.
+  /// For balls: greatest height of what is left above all that the ball can reach (the part's closing by it, within the limits). It is
+  /// proven, as by ScallopOptions; where that fails, as on slopes across the passes, in hollows and along walls, passes are added
+  /// between others, in up to ten rounds. What then remains is counted in the report. Along a wall the tool's shank counts.
   double scallop = 0;
   double angle =
       0;  ///< of the passes, degrees counter-clockwise from +x; turned a little (report) to meet places of few decimals
@@ -94,11 +94,9 @@ struct MillReport {
   std::size_t lifted_moves = 0;     ///< of waterlines and pencil passes: moves not proven free, taken over what is in their way
   double step_over = 0;             ///< used
   std::size_t extra_passes = 0;     ///< parts of passes between others, for the sake of the scallop
-  std::size_t sections = 0;         ///< across the passes, looked at for that
-  std::size_t uneven_sections = 0;  ///< of them, where the scallop is exceeded
   double angle = 0;                 ///< used, degrees
-  std::size_t open_places = 0;      ///< of scallop and rest passes: cubes a hundredth of a step-over large in which the scallop
-                                    ///< is not proven to be kept
+  std::size_t open_places = 0;      ///< with a scallop: places where more is left, and cubes a hundredth of a step-over large in which
+                                    ///< it is not proven to be kept
 };
 
 struct MilledPath {
@@ -117,8 +115,15 @@ struct MilledPath {
 Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const ParallelOptions& options,
                                  const Context& context = {});
 
+/// How levels are cleared in roughing.
+enum class RoughPattern {
+  offsets,  ///< in rings parallel to the part, from outside of the stock inwards
+  zigzag    ///< in parallel passes
+};
+
 struct RoughOptions {
   MillTool tool;  ///< with the stock that finishing is to take off as its allowance
+  RoughPattern pattern = RoughPattern::offsets;
   MillAccuracy accuracy;
   MillMotion motion;
   double step_over = 0;   ///< distance of neighbouring passes
