@@ -152,9 +152,11 @@ class ParallelPasses {
 
   Status prove() {
     if (Status made = make_fine_plan(); !made) return made;
-    const Result<DropCutter> contact = drop_.with_radius(o_.tool.radius + o_.tool.allowance);
+    // What a ball enters that is a few units larger: a path keeps some away.
+    const double room = 4 * o_.accuracy.unit;
+    const Result<DropCutter> contact = drop_.with_radius(o_.tool.radius + o_.tool.allowance + room);
     if (!contact) return contact.error();
-    mill::CoverProof proof(*contact, {o_.tool.radius, o_.tool.allowance, o_.scallop, o_.scallop / 64, true});
+    mill::CoverProof proof(*contact, {o_.tool.radius, o_.tool.allowance + room, o_.scallop - room, o_.scallop / 64, true});
     gaps_.emplace(layout_, plan_.step_over / 2, 2 * proof.smallest_side());
     const mill::Interest interest(*contact, limits_, plan_.step_over / 4);
     // Over its lowest places the ball rests a bit lower than the path.

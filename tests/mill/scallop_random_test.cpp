@@ -53,8 +53,8 @@ RandomCase any_case(std::mt19937& random, int k, double flatter = 1) {
   c.tool.radius = 0.987 * std::clamp(c.terrain.radius, c.part->extent() / 8, c.part->extent());
   c.scallop = c.tool.radius * std::array{0.08, 0.15, 0.3}[random() % 3];
   if (random() % 4 == 0) c.tool.allowance = c.tool.radius / 5;
-  c.accuracy.unit = std::pow(10.0, std::floor(std::log10(c.scallop / 160)));
-  c.accuracy.tolerance = 20 * c.accuracy.unit;
+  c.accuracy.unit = std::pow(10.0, std::floor(std::log10(c.scallop / 1600)));
+  c.accuracy.tolerance = 200 * c.accuracy.unit;
   c.what += ", case " + std::to_string(k) + ", radius " + std::to_string(c.tool.radius) + ", scallop " + std::to_string(c.scallop) +
             ", allowance " + std::to_string(c.tool.allowance);
   return c;
