@@ -144,14 +144,14 @@ class CoverTile {
     const double e = side * root3 / 2;
     if (!list(c, e, depth)) return;
     if (proven(c, e, level)) return;
-    // Beside the part the foot of walls is not looked at.
+    // Beside the part the outer side is not looked at, nor what is touched from there in the smallest cubes.
     const DropCutter::Contact below = p_.smaller_[std::size_t(depth)].at({c.x, c.y});
     if (!below.touches() && drop_walls(level, e)) {
       if (level.touched.empty() || proven(c, e, level)) return;
     }
     if (interest_ && !interest_(c, depth == p_.levels_ ? 0 : side / 2)) return;
     if (depth == p_.levels_) {
-      open_->push_back(c);
+      if (below.touches()) open_->push_back(c);
       return;
     }
     if (Point3 place; side <= sure_ && is_open(c, e, depth, place)) {
@@ -173,8 +173,7 @@ class CoverTile {
     if (interest_ && !interest_(place, 0)) return false;
     const double tiny = p_.tiny_;
     if (!list(place, tiny, depth + 1) || proven(place, tiny, levels_[std::size_t(depth) + 1])) return false;
-    const DropCutter::Contact below = p_.nearly_.at({place.x, place.y});
-    return below.touches();
+    return p_.smaller_[std::size_t(p_.levels_)].at({place.x, place.y}).touches();
   }
 
   /// The triangles that a ball with its centre in the cube may touch from above, and pieces near it. False if the ball
@@ -315,10 +314,10 @@ class CoverTile {
   std::vector<Point3>* open_ = nullptr;
 };
 
-CoverProof::CoverProof(const DropCutter& cutter, const CoverOptions& options) : cutter_(cutter), needle_(*cutter.with_radius(std::ldexp(cutter.terrain().extent() + cutter.radius(), -34))), nearly_(cutter), o_(options) {
+CoverProof::CoverProof(const DropCutter& cutter, const CoverOptions& options) : cutter_(cutter), needle_(*cutter.with_radius(std::ldexp(cutter.terrain().extent() + cutter.radius(), -34))), o_(options) {
   const double core = o_.radius - o_.height, contact = o_.radius + o_.allowance;
   reach_ = std::sqrt(o_.radius * o_.radius - core * core);
-  tiny_ = 1e-6 * reach_, nearly_ = *cutter.with_radius(contact - tiny_);
+  tiny_ = 1e-6 * reach_;
   side_ = std::min(4 * reach_, contact / 2);
   levels_ = std::clamp(int(std::ceil(std::log2(side_ / (2 * smallest * reach_)))), 1, most_levels);
   for (int k = 0; k <= levels_; ++k) {

@@ -64,7 +64,6 @@ class CoverProof {
 
   const DropCutter& cutter_;
   DropCutter needle_;  // a ball so small that it rests on the part's upper side
-  DropCutter nearly_;  // smaller by tiny_
   CoverOptions o_;
   double reach_ = 0;  // half of the distance of passes on a plane
   double side_ = 0;   // of tiles
