@@ -44,7 +44,9 @@ Result<std::vector<std::int64_t>> level_heights(const Terrain& part, const Plan&
   // The tip's heights, as those of the control point.
   const double tip_to_control = (plan.lift == 0 ? mill::radius_of(o.tool) : 0) - plan.tip;
   const auto top = std::int64_t(std::ceil((top_of_stock + tip_to_control) / unit));
-  const auto bottom = std::int64_t(std::ceil((plan.floor - plan.z0) / unit)) + 1;  // not below by rounding
+  // Not below by rounding; and arcs are proven free as chords, by a somewhat larger tool.
+  const double room = o.pattern == RoughPattern::offsets ? mill::make_band(plan, o.accuracy).proof_room : 0;
+  const auto bottom = std::int64_t(std::ceil((plan.floor + room - plan.z0) / unit)) + 1;
   if (bottom >= top) return mill::usage("the lowest level is not below the stock's top", "");
   return mill::spread_levels(top, bottom, unit, o.step_down);
 }

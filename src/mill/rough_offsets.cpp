@@ -196,7 +196,7 @@ class OffsetRougher {
   std::vector<Piece> to_cut(const RasterContour& ring) const {
     const std::vector<Point>& points = ring.points;
     const std::size_t n = ring.is_closed() ? points.size() - 1 : points.size();
-    const auto lead = std::size_t(std::ceil(spacing_ / 4 / raster_.step));
+    const auto lead = std::size_t(std::ceil(spacing_ / 4 / raster_.step)) + 2;
     std::vector<char> wanted(n, 0);
     bool all = true;
     for (std::size_t k = 0; k < n; ++k) {
@@ -214,15 +214,27 @@ class OffsetRougher {
       if (!wanted[k]) all = false, begin = k;
     if (all) return {{points, ring.is_closed()}};
     std::vector<Piece> pieces;
+    const auto at = [&](std::size_t m) { return ring.is_closed() ? (begin + m) % n : m - 1; };
     for (std::size_t m = 1; m <= n; ++m) {
-      const std::size_t k = ring.is_closed() ? (begin + m) % n : m - 1;
-      if (!wanted[k]) continue;
-      const bool follows = m > 1 && wanted[ring.is_closed() ? (begin + m - 1) % n : m - 2];
-      if (!follows) pieces.emplace_back();
-      pieces.back().points.push_back(points[k]);
+      if (!wanted[at(m)]) continue;
+      if (m == 1 || !wanted[at(m - 1)]) {
+        pieces.emplace_back();
+        lead_in(points, m, at, pieces.back());
+      }
+      pieces.back().points.push_back(points[at(m)]);
     }
     std::erase_if(pieces, [](const Piece& p) { return p.points.size() < 2; });
     return pieces;
+  }
+
+  /// From farther back, if the tool gets down there beside the stock.
+  template <class At>
+  void lead_in(const std::vector<Point>& points, std::size_t first, const At& at, Piece& piece) const {
+    const auto most = std::min(first, std::size_t(std::ceil(2 * radius_ / raster_.step)));
+    std::size_t back = 0;
+    while (back < most && clear_level(points[at(first - back)]) != k_) ++back;
+    if (back == most) return;
+    for (; back > 0; --back) piece.points.push_back(points[at(first - back)]);
   }
 
   void cut_piece(Piece& piece, std::size_t farthest) {
@@ -300,13 +312,14 @@ class OffsetRougher {
     }
     descend(ends[0], top);
     const double a_half = std::max(1.0, std::numbers::pi * double(r) * std::tan(o_.ramp_angle * std::numbers::pi / 180) - 1);
-    // An even number of half turns, and one turn more on the level.
+    // An even number of half turns, and one turn more on the level; none beside the stock.
     const int turns = 2 * int(std::ceil(double(top - k_) / a_half / 2));
     for (int n = 1; n <= turns; ++n) {
       const std::int64_t k = top - std::int64_t(double(top - k_) * n / turns);
       cut(half_turn(n, n == turns ? k_ : k, o_.motion.plunge_feed));
     }
-    for (const int n : {1, 2}) cut(half_turn(n, k_, o_.motion.feed));
+    if (turns > 0)
+      for (const int n : {1, 2}) cut(half_turn(n, k_, o_.motion.feed));
     cut(line(start, o_.motion.feed));
     piece = std::move(rotated);
     return true;

@@ -31,38 +31,48 @@ std::vector<std::uint32_t> label(const PlaneRaster& raster, const std::vector<ch
   return labels;
 }
 
+/// Adds the parts that are farther than a value, and their borders, to the forest; `labels` become their numbers.
+void add_level(const LevelField& field, double value, std::vector<std::uint32_t>& labels, std::vector<std::size_t>& seeds,
+               RingForest& forest) {
+  const PlaneRaster& raster = field.raster();
+  const std::vector<double>& distance = field.distance();
+  std::vector<char> is_far(raster.size());
+  for (std::size_t v = 0; v < is_far.size(); ++v) is_far[v] = distance[v] > value;
+  seeds.clear();
+  labels = label(raster, is_far, std::uint32_t(forest.nodes.size()), seeds);
+  for (const std::size_t seed : seeds) forest.nodes.push_back({{}, {}, seed});
+  for (std::size_t v = 0; v < labels.size(); ++v)
+    if (labels[v] != none)
+      if (RingNode& node = forest.nodes[labels[v]]; distance[v] > distance[node.farthest]) node.farthest = v;
+  const auto crossing = [&](std::size_t far, std::size_t near) {
+    const Point a = raster.place(far), b = raster.place(near);
+    const double t = (distance[far] - value) / (distance[far] - distance[near]);
+    return Point{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+  };
+  for (RasterContour& ring : raster_contours(raster, is_far, crossing)) forest.nodes[labels[ring.high]].rings.push_back(std::move(ring));
+}
+
 }  // namespace
 
 RingForest find_rings(const LevelField& field, double first, double spacing) {
-  const PlaneRaster& raster = field.raster();
-  const std::vector<double>& distance = field.distance();
   RingForest forest;
-  std::vector<std::uint32_t> before;
-  std::vector<char> is_far(raster.size());
+  std::vector<std::uint32_t> before, labels, unused;
+  std::vector<std::size_t> seeds;
+  std::vector<std::vector<std::size_t>> cores;  // of nodes
   for (double k = 0; first + k * spacing <= field.largest(); ++k) {
-    const double value = first + k * spacing;
-    for (std::size_t v = 0; v < is_far.size(); ++v) is_far[v] = distance[v] > value;
-    std::vector<std::size_t> seeds;
-    const auto begin = std::uint32_t(forest.nodes.size());
-    std::vector<std::uint32_t> labels = label(raster, is_far, begin, seeds);
-    for (const std::size_t seed : seeds) {
-      if (k == 0)
-        forest.roots.push_back(forest.nodes.size());
-      else
-        forest.nodes[before[seed]].children.push_back(forest.nodes.size());
-      forest.nodes.push_back({{}, {}, seed});
-    }
-    for (std::size_t v = 0; v < labels.size(); ++v)
-      if (labels[v] != none)
-        if (RingNode& node = forest.nodes[labels[v]]; distance[v] > distance[node.farthest]) node.farthest = v;
-    for (RasterContour& ring : raster_contours(raster, is_far, [&](std::size_t far, std::size_t near) {
-           const Point a = raster.place(far), b = raster.place(near);
-           const double t = (distance[far] - value) / (distance[far] - distance[near]);
-           return Point{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
-         }))
-      forest.nodes[labels[ring.high]].rings.push_back(std::move(ring));
-    before = std::move(labels);
+    const std::size_t begin = forest.nodes.size();
+    add_level(field, first + k * spacing, labels, seeds, forest);
+    for (std::size_t n = 0; n < seeds.size(); ++n)
+      (k == 0 ? forest.roots : forest.nodes[before[seeds[n]]].children).push_back(begin + n);
+    // Half a spacing farther, for parts in which there is no further ring.
+    const std::size_t middle = forest.nodes.size();
+    add_level(field, first + (k + 0.5) * spacing, unused, seeds, forest);
+    cores.resize(forest.nodes.size());
+    for (std::size_t n = 0; n < seeds.size(); ++n) cores[labels[seeds[n]]].push_back(middle + n);
+    before = labels;
   }
+  for (std::size_t n = 0; n < forest.nodes.size(); ++n)
+    if (forest.nodes[n].children.empty()) forest.nodes[n].children = cores[n];
   return forest;
 }
 

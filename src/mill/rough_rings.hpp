@@ -14,7 +14,8 @@ struct RingNode {
   std::size_t farthest = 0;  ///< place of the raster
 };
 
-/// Rings at the distances first + k spacing, k = 0, 1, ..., as a forest; `roots` are the parts for k = 0.
+/// Rings at the distances first + k spacing, k = 0, 1, ..., as a forest; `roots` are the parts for k = 0. Inside of the last ring there is one
+/// half a spacing farther if that is possible, so that no place is farther than that from a ring.
 struct RingForest {
   std::vector<RingNode> nodes;
   std::vector<std::size_t> roots;

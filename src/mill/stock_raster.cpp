@@ -12,11 +12,9 @@ constexpr double nothing = -1e300;
 
 StockRaster::StockRaster(const PlaneRaster& raster, Point low, Point high, double top, const Cutter& cutter)
     : raster_(raster), top_(raster.size(), nothing) {
-  // Half a step wider: a place of the raster stands for what is about it.
-  const double half = raster.step / 2;
   for (std::size_t v = 0; v < top_.size(); ++v) {
     const Point p = raster.place(v);
-    if (p.x > low.x - half && p.x < high.x + half && p.y > low.y - half && p.y < high.y + half) top_[v] = top;
+    if (p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y) top_[v] = top;
   }
   const auto list = [&](double more, std::vector<Offset>& offsets) {
     const auto reach = std::int64_t(std::ceil((cutter.radius() + more) / raster.step));
