@@ -60,10 +60,12 @@ Point3 OnSurface::put(Point3 p) const {
 
 void OnSurface::append(Point3 a, Point3 b, int depth, std::vector<SpaceLine>& lines) const {
   const double far = distance(a, b);
-  if (far > shortest_ && depth < deepest) {
+  if (far > shortest_) {
     const Point3 middle = 0.5 * (a + b), c = put(middle);
-    if (distance(c, middle) > flatten_) {
-      if (std::max(distance(a, c), distance(c, b)) < far) {
+    // Of long pieces also a quarter from both ends.
+    const auto is_off = [&](Point3 p) { return distance(put(p), p) > flatten_; };
+    if (distance(c, middle) > flatten_ || (far > 4 * shortest_ && (is_off(0.75 * a + 0.25 * b) || is_off(0.25 * a + 0.75 * b)))) {
+      if (depth < deepest && std::max(distance(a, c), distance(c, b)) < far) {
         append(a, c, depth + 1, lines);
         append(c, b, depth + 1, lines);
       } else {
