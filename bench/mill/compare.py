@@ -37,6 +37,14 @@ def run(program, part, options, times=3):
     return *best, "none" if verified.returncode == 0 else "**yes**"
 
 
+def opencamlib(radius):
+    """Microseconds a point at a radius on a part 100 long: between the measured ones in proportion."""
+    for (r0, us0), (r1, us1) in zip(OPENCAMLIB, OPENCAMLIB[1:]):
+        if radius <= r1:
+            return us0 + max(0, radius - r0) / (r1 - r0) * (us1 - us0)
+    return OPENCAMLIB[-1][1]
+
+
 def number(text, pattern):
     return float(re.search(pattern, text)[1].replace(",", ""))
 
@@ -59,8 +67,7 @@ def main():
         cpu, said, lines, gouge = run(a.program, str(part), options)
         points = number(said, r"curves +([0-9]+) points")
         length, minutes = number(said, r"; ([0-9.e+]+) mm cut"), number(said, r"about ([0-9.]+) min")
-        # Of the radius next below, in parts of the longest side.
-        other = max(us for radius, us in OPENCAMLIB if radius <= max(0.5, 100 * diameter / 2 / side))
+        other = opencamlib(100 * diameter / 2 / side)
         rows.append([part.name, f"{diameter} mm", f"{step} mm", f"{points:,.0f}", f"{1e6 * cpu / points:.1f}", f"{points / cpu:,.0f}",
                      f"×{other / (1e6 * cpu / points):.0f}", f"{chords:,}", f"{1e6 * chords_cpu / chords:.1f}", f"{lines:,}", f"{cpu:.2f}",
                      f"{length / 1000:.1f} m", f"{minutes:.1f}", gouge])

@@ -120,6 +120,8 @@ class OffsetRougher {
   bool is_on_level() const { return !path.moves.empty() && at_.z == job_.absolute(k_); }
   /// The lowest height of the lattice at which the tool takes nothing off there, at least the level.
   std::int64_t clear_level(Point p) const {
+    // Beside the block there is nothing, whatever the raster tells.
+    if (std::hypot(std::max({0.0, low_.x - p.x, p.x - high_.x}), std::max({0.0, low_.y - p.y, p.y - high_.y})) >= radius_) return k_;
     const double tip = stock_->clear_height(p);
     return tip <= tip_ ? k_ : k_ + std::int64_t(std::ceil((tip - tip_) / o_.accuracy.unit));
   }
@@ -263,7 +265,7 @@ class OffsetRougher {
       cut(line(start, o_.motion.feed));
       return true;
     }
-    if (!stock_->is_cut(flat(start), tip_, least_) && clear_level(flat(start)) == k_) {
+    if (clear_level(flat(start)) == k_) {
       descend(rounded(piece.points.front()), k_);
       return true;
     }
