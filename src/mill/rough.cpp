@@ -44,11 +44,14 @@ Result<std::vector<std::int64_t>> level_heights(const Terrain& part, const Plan&
   // The tip's heights, as those of the control point.
   const double tip_to_control = (plan.lift == 0 ? mill::radius_of(o.tool) : 0) - plan.tip;
   const auto top = std::int64_t(std::ceil((top_of_stock + tip_to_control) / unit));
-  // Not below by rounding; and arcs are proven free as chords, by a somewhat larger tool.
-  const double room = o.pattern == RoughPattern::offsets ? mill::make_band(plan, o.accuracy).proof_room : 0;
-  const auto bottom = std::int64_t(std::ceil((plan.floor + room - plan.z0) / unit)) + 1;
+  const auto bottom = std::int64_t(std::ceil((plan.floor - plan.z0) / unit)) + 1;  // not below by rounding
   if (bottom >= top) return mill::usage("the lowest level is not below the stock's top", "");
-  return mill::spread_levels(top, bottom, unit, o.step_down);
+  auto heights = mill::spread_levels(top, bottom, unit, o.step_down);
+  if (!heights || o.pattern == RoughPattern::zigzag) return heights;
+  // Levels are often at the height of level ground: arcs are proven free as chords, by a somewhat larger tool.
+  const auto room = std::int64_t(std::ceil(mill::make_band(plan, o.accuracy).proof_room / unit));
+  for (std::size_t n = 1; n < heights->size(); ++n) (*heights)[n] = std::min((*heights)[n] + room, top);
+  return heights;
 }
 
 }  // namespace

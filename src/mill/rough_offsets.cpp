@@ -247,7 +247,7 @@ class OffsetRougher {
       return;
     }
     ++report_.cuts;
-    run_along(piece);
+    run_along(piece, farthest);
   }
 
   static void start_near(Piece& piece, Point p) {
@@ -337,14 +337,14 @@ class OffsetRougher {
     std::int64_t top = k_;
     for (const FlatMove& m : moves) {
       const Point3 from = place(way.back(), k_), to = place(m.end, k_);
-      if (!free_.is_free(from, line(to, 0))) return false;
+      if (!free_.is_free(from, line(to, 0))) break;
       around += length(flat(to) - flat(from));
       way.push_back(m.end);
     }
     for (const Point p : piece.points) top = std::max(top, clear_level(p));
     if (around < radius_ || way.size() < 2) return false;
     descend(way.front(), top);
-    run_down(way, piece.is_closed, top);
+    run_down(way, piece.is_closed && way.size() == moves.size() + 1, top);
     return true;
   }
 
@@ -368,29 +368,55 @@ class OffsetRougher {
     }
   }
 
-  /// The moves along a piece, from its start; what is not proven free is left out.
-  void run_along(const Piece& piece) {
+  /// The moves along a piece, from its start. Where one is not proven free, as at something too small for the raster, the tool goes as
+  /// far as it can and on beyond that as along another piece.
+  void run_along(const Piece& piece, std::size_t farthest) {
     std::vector<FlatMove> moves;
-    FlatPoint from = FlatFit(piece.points, fit_).run(moves);
-    bool is_there = at_ == place(from, k_);
+    FlatFit(piece.points, fit_).run(moves);
+    std::size_t index = 0;  // of the point where the tool is
     for (const FlatMove& m : moves) {
       Move move = line(place(m.end, k_), o_.motion.feed);
       if (m.turn != 0)
         move.kind = m.turn > 0 ? MoveKind::counter_clockwise : MoveKind::clockwise, move.centre = place(m.centre, k_);
-      if (is_there && free_.is_free(at_, move)) {
-        cut(move);
-      } else {
+      if (!free_.is_free(at_, move)) {
         ++report_.lifted_moves;
-        is_there = false;
+        if (m.turn == 0) go_towards(move.end);
+        go_on_beyond(piece, nearest_point(piece, index, flat(at_)), farthest);
+        return;
       }
-      if (!is_there) {
-        // On from its end, if the tool gets down there without cutting.
-        const Point end = flat(move.end);
-        is_there = !stock_->is_cut(end, tip_, least_) && clear_level(end) == k_ && free_.is_free(move.end, line(move.end, 0));
-        if (is_there) descend(m.end, k_);
-      }
-      from = m.end;
+      cut(move);
+      index = nearest_point(piece, index, flat(at_));
     }
+  }
+
+  /// As far as is proven free.
+  void go_towards(Point3 end) {
+    std::optional<Point3> last;
+    double good = 0, bad = 1;
+    for (int n = 0; n < 6; ++n) {
+      const double t = 0.5 * (good + bad);
+      const Point3 p = place(rounded(flat(at_) + t * (flat(end) - flat(at_))), k_);
+      const bool is_free = p != at_ && free_.is_free(at_, line(p, 0));
+      (is_free ? good : bad) = t;
+      if (is_free) last = p;
+    }
+    if (last) cut(line(*last, o_.motion.feed));
+  }
+
+  static std::size_t nearest_point(const Piece& piece, std::size_t from, Point p) {
+    std::size_t best = from;
+    for (std::size_t k = from; k < piece.points.size(); ++k)
+      if (length(piece.points[k] - p) < length(piece.points[best] - p)) best = k;
+    return best;
+  }
+
+  void go_on_beyond(const Piece& piece, std::size_t index, std::size_t farthest) {
+    double skipped = 0, left = 0;
+    while (index + 1 < piece.points.size() && skipped < 4 * raster_.step)
+      skipped += length(piece.points[index + 1] - piece.points[index]), ++index;
+    Piece rest{{piece.points.begin() + std::ptrdiff_t(index), piece.points.end()}, false};
+    for (std::size_t k = 1; k < rest.points.size(); ++k) left += length(rest.points[k] - rest.points[k - 1]);
+    if (left >= radius_) cut_piece(rest, farthest);
   }
 
   const RoughJob& job_;
