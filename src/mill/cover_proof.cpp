@@ -15,10 +15,11 @@ using namespace vectors;
 namespace {
 
 constexpr double root3 = 1.7320508075688772;
-constexpr int most_levels = 8;       // of halving a tile
-constexpr double rounding = 1e-12;   // of squared distances, relative
-constexpr double smallest = 0.01;    // half a cube's diagonal or so, of half the distance of passes on a plane
-constexpr double widest_cone = 1.56;  // radians: beyond it directions between those of two touched places are left to subdivision
+constexpr int most_levels = 8;      // of halving a tile
+constexpr double rounding = 1e-12;  // of squared distances, relative
+constexpr double smallest = 0.01;   // half a cube's diagonal or so, of half the distance of passes on a plane
+constexpr double widest_cone =
+    1.56;  // radians: beyond it directions between those of two touched places are left to subdivision
 
 Point3 nearest_on_segment(Point3 p, Point3 a, Point3 b) {
   const Point3 d = b - a;
@@ -51,8 +52,8 @@ Point3 nearest_on_triangle(Point3 p, const Triangle& t) {
   return t.a + (vb / all) * ab + (vc / all) * ac;
 }
 
-/// Of the triangle and all below it: where p is lower than what is nearest on the triangle, on the upright wall below its part that is
-/// higher than p.
+/// Of the triangle and all below it: where p is lower than what is nearest on the triangle, on the upright wall below
+/// its part that is higher than p.
 Point3 nearest_on_body(Point3 p, const Triangle& t) {
   const Point3 q = nearest_on_triangle(p, t);
   if (q.z <= p.z) return q;
@@ -130,7 +131,8 @@ class CoverTile {
     const auto cell = [&](double x, double first, std::size_t count) {
       return std::size_t(std::clamp(std::floor((x - first) / p_.bucket_), 0.0, double(count - 1)));
     };
-    const std::size_t c0 = cell(middle.x - far, p_.first_.x, p_.across_), c1 = cell(middle.x + far, p_.first_.x, p_.across_);
+    const std::size_t c0 = cell(middle.x - far, p_.first_.x, p_.across_),
+                      c1 = cell(middle.x + far, p_.first_.x, p_.across_);
     const std::size_t r0 = cell(middle.y - far, p_.first_.y, p_.up_), r1 = cell(middle.y + far, p_.first_.y, p_.up_);
     for (std::size_t r = r0; r <= r1; ++r)
       for (std::size_t n = p_.begin_[r * p_.across_ + c0]; n < p_.begin_[r * p_.across_ + c1 + 1]; ++n)
@@ -163,8 +165,8 @@ class CoverTile {
            side / 2, depth + 1);
   }
 
-  /// Whether a place of the surface in the cube is not covered: one where the ball touches what is nearest to the middle. Then
-  /// there is no need to look closer.
+  /// Whether a place of the surface in the cube is not covered: one where the ball touches what is nearest to the
+  /// middle. Then there is no need to look closer.
   bool is_open(Point3 c, double e, int depth, Point3& place) {
     const Level& level = levels_[std::size_t(depth)];
     const std::size_t best = std::size_t(std::min_element(level.away.begin(), level.away.end()) - level.away.begin());
@@ -210,8 +212,8 @@ class CoverTile {
     return true;
   }
 
-  /// Drops triangles to which no c of the cube is as near as to that which is nearest to the middle. The distance from a triangle
-  /// changes along m, so the difference of two changes no faster than the difference of their m.
+  /// Drops triangles to which no c of the cube is as near as to that which is nearest to the middle. The distance from
+  /// a triangle changes along m, so the difference of two changes no faster than the difference of their m.
   void drop_farther(double e, Level& level) const {
     if (level.triangles.size() < 2) return;
     const std::size_t best = std::size_t(std::min_element(level.away.begin(), level.away.end()) - level.away.begin());
@@ -220,7 +222,8 @@ class CoverTile {
     std::size_t kept = 0;
     for (std::size_t n = 0; n < level.triangles.size(); ++n) {
       if (level.away[n] - away > e * (distance(level.normal[n], normal) + level.angle[n] + angle)) continue;
-      level.triangles[kept] = level.triangles[n], level.place[kept] = level.place[n], level.normal[kept] = level.normal[n];
+      level.triangles[kept] = level.triangles[n], level.place[kept] = level.place[n],
+      level.normal[kept] = level.normal[n];
       level.angle[kept] = level.angle[n], level.away[kept] = level.away[n];
       ++kept;
     }
@@ -255,7 +258,8 @@ class CoverTile {
     Point3 mean{}, axis{};
     for (std::size_t n = 0; n < level.touched.size(); ++n) mean = mean + level.limit[n], axis = axis + level.normal[n];
     mean = (1 / double(level.touched.size())) * mean;
-    // Directions between those of two touched places are sums of them with weights that add up to 1 / cos(cone) at most.
+    // Directions between those of two touched places are sums of them with weights that add up to 1 / cos(cone) at
+    // most.
     double cone = widest_cone;
     if (const double size = length(axis); size > 0) {
       double widest = 0;
@@ -278,8 +282,10 @@ class CoverTile {
     if (!o_.shank) return q;
     const Point3 level_from{piece.from.x, piece.from.y, 0}, level_to{piece.to.x, piece.to.y, 0};
     const Point3 along = level_to - level_from, flat{p.x, p.y, 0};
-    const double squared = dot(along, along), t = squared > 0 ? std::clamp(dot(flat - level_from, along) / squared, 0.0, 1.0) : 0;
-    const double bottom = squared > 0 ? piece.from.z + t * (piece.to.z - piece.from.z) : std::min(piece.from.z, piece.to.z);
+    const double squared = dot(along, along),
+                 t = squared > 0 ? std::clamp(dot(flat - level_from, along) / squared, 0.0, 1.0) : 0;
+    const double bottom =
+        squared > 0 ? piece.from.z + t * (piece.to.z - piece.from.z) : std::min(piece.from.z, piece.to.z);
     const Point3 level = level_from + t * along;
     return p.z > bottom ? Point3{level.x, level.y, p.z} : q;
   }
@@ -314,7 +320,10 @@ class CoverTile {
   std::vector<Point3>* open_ = nullptr;
 };
 
-CoverProof::CoverProof(const DropCutter& cutter, const CoverOptions& options) : cutter_(cutter), needle_(*cutter.with_radius(std::ldexp(cutter.terrain().extent() + cutter.radius(), -34))), o_(options) {
+CoverProof::CoverProof(const DropCutter& cutter, const CoverOptions& options)
+    : cutter_(cutter),
+      needle_(*cutter.with_radius(std::ldexp(cutter.terrain().extent() + cutter.radius(), -34))),
+      o_(options) {
   const double core = o_.radius - o_.height, contact = o_.radius + o_.allowance;
   reach_ = std::sqrt(o_.radius * o_.radius - core * core);
   tiny_ = 1e-6 * reach_;

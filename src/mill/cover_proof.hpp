@@ -51,9 +51,10 @@ class CoverProof {
   double smallest_side() const { return std::ldexp(side_, -levels_); }
 
   std::size_t tile_count() const { return columns_ * rows_; }
-  /// Looks at tiles; `open` becomes, tile by tile, places that are not covered, one of a cube of a quarter of the distance of passes at
-  /// most, and the middles of the smallest cubes that are not proven, all relative to the part's origin; `open_tiles` the tiles that have some. `is_of_interest`, which may be empty, tells of a place whether
-  /// anything within a distance of it in x and y is to be looked at; of the smallest cubes the middle counts. False if cancelled.
+  /// Looks at tiles; `open` becomes, tile by tile, places that are not covered, one of a cube of a quarter of the distance
+  /// of passes at most, and the middles of the smallest cubes that are not proven, all relative to the part's origin;
+  /// `open_tiles` the tiles that have some. `is_of_interest`, which may be empty, tells of a place whether anything within
+  /// a distance of it in x and y is to be looked at; of the smallest cubes the middle counts. False if cancelled.
   bool run(const std::vector<std::size_t>& tiles, const std::function<bool(Point3, double)>& is_of_interest,
            const Context& context, std::vector<Point3>& open, std::vector<std::size_t>& open_tiles);
   std::vector<std::size_t> all_tiles() const;

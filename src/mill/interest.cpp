@@ -46,7 +46,8 @@ bool Interest::has(Point p, double within) const {
     return std::size_t(std::clamp(std::floor((x - first) / cell_), 0.0, double(count - 1)));
   };
   for (std::size_t r = cell(p.y - within, first_.y, rows_), last = cell(p.y + within, first_.y, rows_); r <= last; ++r)
-    for (std::size_t c = cell(p.x - within, first_.x, columns_), end = cell(p.x + within, first_.x, columns_); c <= end; ++c)
+    for (std::size_t c = cell(p.x - within, first_.x, columns_), end = cell(p.x + within, first_.x, columns_); c <= end;
+         ++c)
       if (cells_[r * columns_ + c]) return true;
   return false;
 }

@@ -27,7 +27,8 @@ double distance_from(Point p, const Side& s) {
 
 }  // namespace
 
-bool LevelField::build(const LiftedCutter& cutter, const PlaneRaster& raster, Point stock_low, Point stock_high, const Context& context) {
+bool LevelField::build(const LiftedCutter& cutter, const PlaneRaster& raster, Point stock_low, Point stock_high,
+                       const Context& context) {
   cutter_ = &cutter, raster_ = raster, low_ = stock_low, high_ = stock_high;
   height_.resize(raster.size());
   const std::size_t band = std::max<std::size_t>(1, 1000000 / raster.columns);
@@ -87,7 +88,8 @@ void LevelField::spread(const std::vector<RasterContour>& borders) {
     for (std::size_t k = 0; k + 1 < border.points.size(); ++k) {
       sides.push_back({border.points[k], border.points[k + 1]});
       const Point middle = 0.5 * (border.points[k] + border.points[k + 1]);
-      const auto c = std::int64_t((middle.x - raster_.first.x) / raster_.step), r = std::int64_t((middle.y - raster_.first.y) / raster_.step);
+      const auto c = std::int64_t((middle.x - raster_.first.x) / raster_.step),
+                 r = std::int64_t((middle.y - raster_.first.y) / raster_.step);
       for (std::int64_t y = std::max<std::int64_t>(0, r - 1); y <= std::min(rows - 1, r + 2); ++y)
         for (std::int64_t x = std::max<std::int64_t>(0, c - 1); x <= std::min(columns - 1, c + 2); ++x)
           attempt(std::size_t(y * columns + x), std::uint32_t(sides.size() - 1));

@@ -75,8 +75,9 @@ struct PassResult {
   std::uint64_t touches = 0;
 };
 
-PassResult make_pass(const mill::LiftedCutter& cutter, const mill::PassLayout& layout, const mill::PassLayout::Pass& pass,
-                     const Plan& plan, const mill::PassLimits& limits, const ParallelOptions& o) {
+PassResult make_pass(const mill::LiftedCutter& cutter, const mill::PassLayout& layout,
+                     const mill::PassLayout::Pass& pass, const Plan& plan, const mill::PassLimits& limits,
+                     const ParallelOptions& o) {
   const std::unique_ptr<mill::LineBodies> bodies = mill::make_bodies(cutter, plan.slack);
   mill::DriveCurve curve(*bodies, {plan.floor, plan.accuracy, o.accuracy.unit / 64, layout.step});
   std::vector<CurveRun> runs;
@@ -106,10 +107,18 @@ class ParallelPasses {
  public:
   ParallelPasses(const DropCutter& drop, const Plan& plan, const mill::PassLayout& layout, const ParallelOptions& o,
                  MillReport& report, const Context& context)
-      : drop_(drop), cutter_(drop, plan.lift), plan_(plan), o_(o), layout_(layout), report_(report), context_(context),
-        limits_{mill::Boundary(o.boundary, drop.terrain().origin()), o.shallow * std::numbers::pi / 180, plan.step_over} {
+      : drop_(drop),
+        cutter_(drop, plan.lift),
+        plan_(plan),
+        o_(o),
+        layout_(layout),
+        report_(report),
+        context_(context),
+        limits_{mill::Boundary(o.boundary, drop.terrain().origin()), o.shallow * std::numbers::pi / 180,
+                plan.step_over} {
     quiet_.threads = context.threads, quiet_.cancel = context.cancel;
-    for (const mill::PassLayout::Pass& pass : layout.passes) passes_.push_back({2 * passes_.size() + 1, pass, &layout, {}});
+    for (const mill::PassLayout::Pass& pass : layout.passes)
+      passes_.push_back({2 * passes_.size() + 1, pass, &layout, {}});
   }
 
   const mill::PassLimits& limits() const { return limits_; }
@@ -138,8 +147,8 @@ class ParallelPasses {
     });
   }
 
-  /// At the bottom of a sharp valley a path is much higher above the ball's lowest place than it is away from the sides: passes that
-  /// go there are more exact.
+  /// At the bottom of a sharp valley a path is much higher above the ball's lowest place than it is away from the
+  /// sides: passes that go there are more exact.
   Status make_fine_plan() {
     fine_ = o_;
     fine_.accuracy.tolerance = std::max(16 * o_.accuracy.unit + 2 * o_.accuracy.arc_error, o_.accuracy.tolerance / 8);
@@ -156,7 +165,8 @@ class ParallelPasses {
     const double room = 4 * o_.accuracy.unit;
     const Result<DropCutter> contact = drop_.with_radius(o_.tool.radius + o_.tool.allowance + room);
     if (!contact) return contact.error();
-    mill::CoverProof proof(*contact, {o_.tool.radius, o_.tool.allowance + room, o_.scallop - room, o_.scallop / 64, true});
+    mill::CoverProof proof(*contact,
+                           {o_.tool.radius, o_.tool.allowance + room, o_.scallop - room, o_.scallop / 64, true});
     gaps_.emplace(layout_, plan_.step_over / 2, 2 * proof.smallest_side());
     const mill::Interest interest(*contact, limits_, plan_.step_over / 4);
     // Over its lowest places the ball rests a bit lower than the path.
@@ -174,7 +184,8 @@ class ParallelPasses {
       if (open.empty() || round > most_rounds) break;
       const std::vector<mill::PassGaps::Extra> extra =
           round <= rounds_along ? gaps_->serve(open, *contact) : gaps_->serve_across(open);
-      for (const mill::PassGaps::Extra& e : extra) passes_.push_back({2 * e.gap, e.pass, e.is_across ? &gaps_->across() : &layout_, {}});
+      for (const mill::PassGaps::Extra& e : extra)
+        passes_.push_back({2 * e.gap, e.pass, e.is_across ? &gaps_->across() : &layout_, {}});
       if (!make_cuts(proven, quiet_)) return cancelled();
       tiles = open_tiles;
     }
@@ -243,8 +254,9 @@ Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const Para
   Result<std::vector<Cut>> cuts = passes.run();
   if (!cuts) return cuts.error();
   if (cuts->empty())
-    return Error{ErrorCode::input, "there is no pass over the part", "",
-                 o.boundary.polygons.empty() ? "use a smaller step-over" : "use a smaller step-over or a larger boundary"};
+    return Error{
+        ErrorCode::input, "there is no pass over the part", "",
+        o.boundary.polygons.empty() ? "use a smaller step-over" : "use a smaller step-over or a larger boundary"};
   milled.report.passes = layout.passes.size() + milled.report.extra_passes, milled.report.cuts = cuts->size();
   milled.report.step_over = layout.step_over, milled.report.angle = layout.angle();
   const double short_link = o.zigzag ? 1.5 * plan.step_over : 0;

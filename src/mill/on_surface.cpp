@@ -17,8 +17,8 @@ constexpr int deepest = 12;
 
 }  // namespace
 
-/// What a ball over p touches bounds the distance of p. A ball a bit smaller than that either rests at p or below: then nothing is
-/// nearer; or it rests higher, on something that is nearer.
+/// What a ball over p touches bounds the distance of p. A ball a bit smaller than that either rests at p or below: then
+/// nothing is nearer; or it rests higher, on something that is nearer.
 OnSurface::Nearest OnSurface::nearest(Point3 p) const {
   constexpr double a_bit = 1e-9;
   double radius = cutter_.radius();
@@ -64,7 +64,8 @@ void OnSurface::append(Point3 a, Point3 b, int depth, std::vector<SpaceLine>& li
     const Point3 middle = 0.5 * (a + b), c = put(middle);
     // Of long pieces also a quarter from both ends.
     const auto is_off = [&](Point3 p) { return distance(put(p), p) > flatten_; };
-    if (distance(c, middle) > flatten_ || (far > 4 * shortest_ && (is_off(0.75 * a + 0.25 * b) || is_off(0.25 * a + 0.75 * b)))) {
+    if (distance(c, middle) > flatten_ ||
+        (far > 4 * shortest_ && (is_off(0.75 * a + 0.25 * b) || is_off(0.25 * a + 0.75 * b)))) {
       if (depth < deepest && std::max(distance(a, c), distance(c, b)) < far) {
         append(a, c, depth + 1, lines);
         append(c, b, depth + 1, lines);

@@ -22,7 +22,8 @@ PassGaps::PassGaps(const PassLayout& layout, double together, double close)
 PassGaps::Place PassGaps::place_of(Point3 p) const {
   const Line line = layout_.line(layout_.passes.front());
   const double dx = p.x - line.origin.x, dy = p.y - line.origin.y;
-  return {(dx * line.direction.x + dy * line.direction.y) / layout_.step, (dy * line.direction.x - dx * line.direction.y) / layout_.step, p};
+  return {(dx * line.direction.x + dy * line.direction.y) / layout_.step,
+          (dy * line.direction.x - dx * line.direction.y) / layout_.step, p};
 }
 
 std::size_t PassGaps::gap_of(double across) const {
@@ -31,12 +32,14 @@ std::size_t PassGaps::gap_of(double across) const {
 }
 
 /// On which line between two others a pass serves places best.
-std::int64_t PassGaps::choose(const std::vector<Place>& run, std::int64_t low, std::int64_t high, const DropCutter& cutter) const {
+std::int64_t PassGaps::choose(const std::vector<Place>& run, std::int64_t low, std::int64_t high,
+                              const DropCutter& cutter) const {
   const std::int64_t middle = low + (high - low) / 2;
   const auto by_across = [](const Place& a, const Place& b) { return a.across < b.across; };
   const auto [least, most] = std::minmax_element(run.begin(), run.end(), by_across);
   if (most->across - least->across > 2 * close_ || double(high - low) < 4 * close_) return middle;
-  const Point3 lowest = std::min_element(run.begin(), run.end(), [](const Place& a, const Place& b) { return a.at.z < b.at.z; })->at;
+  const Point3 lowest =
+      std::min_element(run.begin(), run.end(), [](const Place& a, const Place& b) { return a.at.z < b.at.z; })->at;
   const Line line = layout_.line(layout_.passes.front());
   const double off = close_ * layout_.step;
   const auto height = [&](double side) {
@@ -99,16 +102,21 @@ std::vector<PassGaps::Extra> PassGaps::serve_across(const std::vector<Point3>& p
   }
   std::vector<Extra> found;
   for (auto& [number, strip] : strips) {
-    std::sort(strip.begin(), strip.end(), [](const Place& a, const Place& b) { return std::tie(a.across, a.along) < std::tie(b.across, b.along); });
+    std::sort(strip.begin(), strip.end(),
+              [](const Place& a, const Place& b) { return std::tie(a.across, a.along) < std::tie(b.across, b.along); });
     for (std::size_t k = 0; k < strip.size();) {
       std::size_t end = k + 1;
       while (end < strip.size() && strip[end].across - strip[end - 1].across <= 2 * together_) ++end;
       double least = strip[k].along, most = least;
-      for (std::size_t n = k; n < end; ++n) least = std::min(least, strip[n].along), most = std::max(most, strip[n].along);
-      const auto along = std::int64_t(std::llround((least + most) / 2)), middle = std::int64_t(std::llround(strip[k].across));
-      const auto before = std::int64_t(std::ceil(together_)), beyond = std::int64_t(std::ceil(strip[end - 1].across - strip[k].across + together_));
+      for (std::size_t n = k; n < end; ++n)
+        least = std::min(least, strip[n].along), most = std::max(most, strip[n].along);
+      const auto along = std::int64_t(std::llround((least + most) / 2)),
+                 middle = std::int64_t(std::llround(strip[k].across));
+      const auto before = std::int64_t(std::ceil(together_)),
+                 beyond = std::int64_t(std::ceil(strip[end - 1].across - strip[k].across + together_));
       found.push_back({gap_of(strip[k].across),
-                       {base.i0 + along * layout_.p - middle * layout_.q, base.j0 + along * layout_.q + middle * layout_.p, -before, beyond},
+                       {base.i0 + along * layout_.p - middle * layout_.q,
+                        base.j0 + along * layout_.q + middle * layout_.p, -before, beyond},
                        true});
       k = end;
     }

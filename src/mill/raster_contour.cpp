@@ -10,7 +10,8 @@ constexpr std::uint32_t none = ~std::uint32_t{0};
 
 }  // namespace
 
-/// Marching squares: each cell joins the sides where its border, counter-clockwise, leaves what is high to those where it came there.
+/// Marching squares: each cell joins the sides where its border, counter-clockwise, leaves what is high to those where
+/// it came there.
 std::vector<RasterContour> raster_contours(const PlaneRaster& raster, const std::vector<char>& is_high,
                                            const std::function<Point(std::size_t, std::size_t)>& crossing) {
   const std::size_t n = raster.columns;

@@ -26,8 +26,8 @@ struct RasterContour {
   bool is_closed() const { return points.size() > 3 && points.front() == points.back(); }
 };
 
-/// All of them, in the order of the raster. `crossing(v, w)`: where the way from the high place v to its neighbour w, which is not
-/// high, leaves what is high. High places that touch only diagonally are apart.
+/// All of them, in the order of the raster. `crossing(v, w)`: where the way from the high place v to its neighbour w,
+/// which is not high, leaves what is high. High places that touch only diagonally are apart.
 std::vector<RasterContour> raster_contours(const PlaneRaster& raster, const std::vector<char>& is_high,
                                            const std::function<Point(std::size_t, std::size_t)>& crossing);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int most_rounds = 12;
 constexpr double least_turn = 0.998;  // cosine of the angle of normals of neighbouring places that is looked into
-constexpr double least_gain = 0.75;  // of a round: what remains of the distance too far
+constexpr double least_gain = 0.75;   // of a round: what remains of the distance too far
 
 /// Whether a free place of the larger ball is within `radius` of x; looked for from c on, which is.
 bool is_reached(const DropCutter& larger, const OnSurface& surface, Point3 x, Point3 c, double radius) {
@@ -49,7 +49,8 @@ class FreePlaces {
     for (std::int64_t row = 0; row < rows_; row += band) {
       const std::int64_t count = std::min(band, rows_ - row);
       contacts.assign(std::size_t(count * columns_), {});
-      const DropCutter::Raster raster{{first_.x, first_.y + double(row) * step}, step, step, std::size_t(columns_), std::size_t(count)};
+      const DropCutter::Raster raster{
+          {first_.x, first_.y + double(row) * step}, step, step, std::size_t(columns_), std::size_t(count)};
       if (!cutter.at(raster, contacts, context)) return false;
       for (std::size_t k = 0; k < contacts.size(); ++k) height_[std::size_t(row * columns_) + k] = contacts[k].height;
     }
@@ -59,7 +60,8 @@ class FreePlaces {
   /// The nearest free place over the raster within `reach` of x, or one that is within `enough`; its distance.
   double nearest(Point3 x, double reach, double enough, Point3& place) const {
     double least = reach;
-    const auto c = std::int64_t(std::llround((x.x - first_.x) / step_)), r = std::int64_t(std::llround((x.y - first_.y) / step_));
+    const auto c = std::int64_t(std::llround((x.x - first_.x) / step_)),
+               r = std::int64_t(std::llround((x.y - first_.y) / step_));
     const auto far = std::int64_t(std::ceil(reach / step_));
     // Rows from the middle outwards: what is free and near is mostly close by.
     for (std::int64_t n = 0; n <= 2 * far; ++n) {
@@ -67,8 +69,10 @@ class FreePlaces {
       const double dy = first_.y + double(row) * step_ - x.y, half = least * least - dy * dy;
       if (row < 0 || row >= rows_ || half < 0) continue;
       const auto wide = std::int64_t(std::sqrt(half) / step_) + 1;
-      for (std::int64_t column = std::max<std::int64_t>(0, c - wide); column <= std::min(columns_ - 1, c + wide); ++column) {
-        const double dx = first_.x + double(column) * step_ - x.x, dz = std::max(0.0, height_[std::size_t(row * columns_ + column)] - x.z);
+      for (std::int64_t column = std::max<std::int64_t>(0, c - wide); column <= std::min(columns_ - 1, c + wide);
+           ++column) {
+        const double dx = first_.x + double(column) * step_ - x.x,
+                     dz = std::max(0.0, height_[std::size_t(row * columns_ + column)] - x.z);
         const double squared = dx * dx + dy * dy + dz * dz;
         if (!(squared < least * least)) continue;
         least = std::sqrt(squared), place = {x.x + dx, x.y + dy, x.z + dz};
@@ -98,7 +102,8 @@ bool find_rest(const SurfaceGrid& grid, const DropCutter& cutter, const RestOf& 
   const Result<DropCutter> smaller = cutter.with_radius(radius - aside);
   if (!smaller) return false;
   FreePlaces free, roughly_free;
-  if (!free.build(*larger, grid, o.radius + 2 * aside, context) || !roughly_free.build(*smaller, grid, o.radius + 2 * aside, context))
+  if (!free.build(*larger, grid, o.radius + 2 * aside, context) ||
+      !roughly_free.build(*smaller, grid, o.radius + 2 * aside, context))
     return false;
   const double slack = o.threshold / 8;
   const OnSurface surface(*larger, slack, slack);

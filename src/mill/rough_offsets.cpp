@@ -60,12 +60,19 @@ struct Piece {
 class OffsetRougher {
  public:
   OffsetRougher(const RoughJob& job, const LiftedCutter& prover, const Band& band, MillReport& report)
-      : job_(job), o_(job.o), plan_(job.plan), report_(report), free_(prover, band, plan_, o_.accuracy.unit),
-        radius_(radius_of(o_.tool)), spacing_(std::min(o_.step_over, radius_)), visited_(3 * spacing_) {
+      : job_(job),
+        o_(job.o),
+        plan_(job.plan),
+        report_(report),
+        free_(prover, band, plan_, o_.accuracy.unit),
+        radius_(radius_of(o_.tool)),
+        spacing_(std::min(o_.step_over, radius_)),
+        visited_(3 * spacing_) {
     const Terrain& part = job.cutter.drop.terrain();
     origin_ = part.origin();
     const double margin = o_.stock_margin;
-    low_ = {part.lowest().x - margin, part.lowest().y - margin}, high_ = {part.highest().x + margin, part.highest().y + margin};
+    low_ = {part.lowest().x - margin, part.lowest().y - margin},
+    high_ = {part.highest().x + margin, part.highest().y + margin};
     const double beyond = radius_ + 2 * spacing_;
     raster_.step = spacing_ / steps_a_spacing;
     raster_.first = {low_.x - beyond, low_.y - beyond};
@@ -121,7 +128,9 @@ class OffsetRougher {
   /// The lowest height of the lattice at which the tool takes nothing off there, at least the level.
   std::int64_t clear_level(Point p) const {
     // Beside the block there is nothing, whatever the raster tells.
-    if (std::hypot(std::max({0.0, low_.x - p.x, p.x - high_.x}), std::max({0.0, low_.y - p.y, p.y - high_.y})) >= radius_) return k_;
+    if (std::hypot(std::max({0.0, low_.x - p.x, p.x - high_.x}), std::max({0.0, low_.y - p.y, p.y - high_.y})) >=
+        radius_)
+      return k_;
     const double tip = stock_->clear_height(p);
     return tip <= tip_ ? k_ : k_ + std::int64_t(std::ceil((tip - tip_) / o_.accuracy.unit));
   }
@@ -155,7 +164,8 @@ class OffsetRougher {
     if (path.moves.empty()) path.start = at_ = {end.x, end.y, plan_.safe};
     go({MoveKind::rapid, ArcPlane::xy, {at_.x, at_.y, plan_.safe}, {}, 0});
     go({MoveKind::rapid, ArcPlane::xy, {end.x, end.y, plan_.safe}, {}, 0});
-    const std::int64_t near = std::max(k, clear_level(flat(end))) + std::int64_t(std::ceil(job_.clearance() / o_.accuracy.unit));
+    const std::int64_t near =
+        std::max(k, clear_level(flat(end))) + std::int64_t(std::ceil(job_.clearance() / o_.accuracy.unit));
     if (const Point3 above = place(to, near); above.z < at_.z) go({MoveKind::rapid, ArcPlane::xy, above, {}, 0});
     if (end.z < at_.z) go(line(end, o_.motion.plunge_feed));
   }
@@ -164,7 +174,8 @@ class OffsetRougher {
   double away(const RingNode& node) const {
     double least = 1e300;
     for (const RasterContour& ring : node.rings)
-      for (std::size_t k = 0; k < ring.points.size(); k += 4) least = std::min(least, length(ring.points[k] - flat(at_)));
+      for (std::size_t k = 0; k < ring.points.size(); k += 4)
+        least = std::min(least, length(ring.points[k] - flat(at_)));
     return least;
   }
   void cut_nearest(std::vector<std::size_t>& nodes) {
@@ -253,12 +264,14 @@ class OffsetRougher {
   static void start_near(Piece& piece, Point p) {
     std::vector<Point>& points = piece.points;
     points.pop_back();
-    const auto best = std::min_element(points.begin(), points.end(), [p](Point a, Point b) { return length(a - p) < length(b - p); });
+    const auto best =
+        std::min_element(points.begin(), points.end(), [p](Point a, Point b) { return length(a - p) < length(b - p); });
     std::rotate(points.begin(), best, points.end());
     points.push_back(points.front());
   }
 
-  /// To the start of a piece on the level: from where the tool is, or has been, or beside the stock, or by a helix or a ramp.
+  /// To the start of a piece on the level: from where the tool is, or has been, or beside the stock, or by a helix or a
+  /// ramp.
   bool enter(Piece& piece, std::size_t farthest) {
     const Point3 start = place(rounded(piece.points.front()), k_);
     if (is_on_level() && length(flat(start) - flat(at_)) <= 1.6 * spacing_ && free_.is_free(at_, line(start, 0))) {
@@ -280,7 +293,8 @@ class OffsetRougher {
       if (!near) continue;
       const FlatPoint from = rounded(*near);  // a place of the lattice, where moves have ended
       const Point3 start = place(rounded(piece.points[k]), k_);
-      if (stock_->is_cut(flat(place(from, k_)), tip_, least_) || !free_.is_free(place(from, k_), line(start, 0))) continue;
+      if (stock_->is_cut(flat(place(from, k_)), tip_, least_) || !free_.is_free(place(from, k_), line(start, 0)))
+        continue;
       descend(from, k_);
       if (piece.is_closed) start_near(piece, Point(piece.points[k]));
       cut(line(place(rounded(piece.points.front()), k_), o_.motion.feed));
@@ -300,7 +314,9 @@ class OffsetRougher {
     Piece rotated = piece;
     if (piece.is_closed) start_near(rotated, flat(place(ends[0], k_)));
     const Point3 start = place(rounded(rotated.points.front()), k_);
-    if (length(flat(start) - flat(place(ends[0], k_))) > 3 * spacing_ || !free_.is_free(place(ends[0], k_), line(start, 0))) return false;
+    if (length(flat(start) - flat(place(ends[0], k_))) > 3 * spacing_ ||
+        !free_.is_free(place(ends[0], k_), line(start, 0)))
+      return false;
     const auto half_turn = [&](int n, std::int64_t k, double feed) {
       return Move{MoveKind::counter_clockwise, ArcPlane::xy, place(ends[n % 2], k), place(centre, k), feed};
     };
@@ -313,7 +329,8 @@ class OffsetRougher {
       top = std::max(top, clear_level({c.x + room * std::cos(turn), c.y + room * std::sin(turn)}));
     }
     descend(ends[0], top);
-    const double a_half = std::max(1.0, std::numbers::pi * double(r) * std::tan(o_.ramp_angle * std::numbers::pi / 180) - 1);
+    const double a_half =
+        std::max(1.0, std::numbers::pi * double(r) * std::tan(o_.ramp_angle * std::numbers::pi / 180) - 1);
     // An even number of half turns, and one turn more on the level; none beside the stock.
     const int turns = 2 * int(std::ceil(double(top - k_) / a_half / 2));
     for (int n = 1; n <= turns; ++n) {
@@ -368,8 +385,8 @@ class OffsetRougher {
     }
   }
 
-  /// The moves along a piece, from its start. Where one is not proven free, as at something too small for the raster, the tool goes as
-  /// far as it can and on beyond that as along another piece.
+  /// The moves along a piece, from its start. Where one is not proven free, as at something too small for the raster,
+  /// the tool goes as far as it can and on beyond that as along another piece.
   void run_along(const Piece& piece, std::size_t farthest) {
     std::vector<FlatMove> moves;
     FlatFit(piece.points, fit_).run(moves);
@@ -439,7 +456,8 @@ class OffsetRougher {
 }  // namespace
 
 Result<ToolPath> rough_by_offsets(const RoughJob& job, MillReport& report, const Context& context) {
-  const Band band = make_band(job.plan, job.o.accuracy, job.plan.lift == 0 ? 1 : roundness(*job.o.tool.cutter, job.o.tool.allowance));
+  const Band band =
+      make_band(job.plan, job.o.accuracy, job.plan.lift == 0 ? 1 : roundness(*job.o.tool.cutter, job.o.tool.allowance));
   const Result<DropCutter> prover = make_prover(job.cutter.drop, job.plan, band, job.o.tool);
   if (!prover) return prover.error();
   const LiftedCutter lifted(*prover, prover_lift(job.plan, band, job.o.tool));

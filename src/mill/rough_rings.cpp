@@ -25,15 +25,16 @@ std::vector<std::uint32_t> label(const PlaneRaster& raster, const std::vector<ch
         if (inside && is_far[w] && labels[w] == none) labels[w] = number, stack.push_back(w);
       };
       attempt(c > 0, at - 1), attempt(c + 1 < raster.columns, at + 1);
-      attempt(at >= raster.columns, at - raster.columns), attempt(at + raster.columns < labels.size(), at + raster.columns);
+      attempt(at >= raster.columns, at - raster.columns),
+          attempt(at + raster.columns < labels.size(), at + raster.columns);
     }
   }
   return labels;
 }
 
 /// Adds the parts that are farther than a value, and their borders, to the forest; `labels` become their numbers.
-void add_level(const LevelField& field, double value, std::vector<std::uint32_t>& labels, std::vector<std::size_t>& seeds,
-               RingForest& forest) {
+void add_level(const LevelField& field, double value, std::vector<std::uint32_t>& labels,
+               std::vector<std::size_t>& seeds, RingForest& forest) {
   const PlaneRaster& raster = field.raster();
   const std::vector<double>& distance = field.distance();
   std::vector<char> is_far(raster.size());
@@ -49,7 +50,8 @@ void add_level(const LevelField& field, double value, std::vector<std::uint32_t>
     const double t = (distance[far] - value) / (distance[far] - distance[near]);
     return Point{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
   };
-  for (RasterContour& ring : raster_contours(raster, is_far, crossing)) forest.nodes[labels[ring.high]].rings.push_back(std::move(ring));
+  for (RasterContour& ring : raster_contours(raster, is_far, crossing))
+    forest.nodes[labels[ring.high]].rings.push_back(std::move(ring));
 }
 
 }  // namespace

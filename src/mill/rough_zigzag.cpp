@@ -57,7 +57,12 @@ DriveCurveOptions below_level(double level, const Plan& plan, double unit, doubl
 class Rougher {
  public:
   Rougher(const RoughJob& job, const PassLayout& layout, MillReport& report)
-      : job_(job), layout_(layout), plan_(job.plan), o_(job.o), bodies_(make_bodies(job.cutter, job.plan.slack)), report_(report) {}
+      : job_(job),
+        layout_(layout),
+        plan_(job.plan),
+        o_(job.o),
+        bodies_(make_bodies(job.cutter, job.plan.slack)),
+        report_(report) {}
   ToolPath path;
 
   /// `above`: the level above it, in units, or the top of the stock.
@@ -183,7 +188,8 @@ Result<ToolPath> rough_by_zigzag(const RoughJob& job, MillReport& report, const 
   // Ends of passes are a unit and more outside of the stock's reach.
   const double turn = o.angle * std::numbers::pi / 180, wider = std::abs(std::cos(turn)) + std::abs(std::sin(turn));
   const double margin = 1.01 * o.stock_margin * wider + plan.radius + 2 * unit;
-  const PassLayout layout = lay_passes(job.cutter.drop.terrain(), unit, o.angle, plan.step_over, margin, o.accuracy.tolerance);
+  const PassLayout layout =
+      lay_passes(job.cutter.drop.terrain(), unit, o.angle, plan.step_over, margin, o.accuracy.tolerance);
   const std::size_t passes = layout.passes.size(), levels = job.heights.size() - 1;
   std::vector<Level> cuts(levels);
   for (std::size_t n = 0; n < levels; ++n) cuts[n].k = job.heights[n + 1], cuts[n].passes.resize(passes);

@@ -182,7 +182,8 @@ class ScallopPasses {
     const double size = half_ / 4, least = 4 * job_.accuracy.unit;
     std::map<std::array<std::int64_t, 3>, SpaceLine> lines;
     for (const Point3 p : places) {
-      SpaceLine& line = lines[{std::int64_t(std::floor(p.x / size)), std::int64_t(std::floor(p.y / size)), std::int64_t(std::floor(p.z / size))}];
+      SpaceLine& line = lines[{std::int64_t(std::floor(p.x / size)), std::int64_t(std::floor(p.y / size)),
+                               std::int64_t(std::floor(p.z / size))}];
       if (line.empty())
         line = {p, p};
       else if (distance(line.front(), p) > distance(line.front(), line.back()))

@@ -8,7 +8,8 @@
 
 namespace krepl::mill {
 
-/// Stock as heights over a raster, as a tool takes it off on its way. Heights are those of the tool's tip; relative to the part's origin.
+/// Stock as heights over a raster, as a tool takes it off on its way. Heights are those of the tool's tip; relative to
+/// the part's origin.
 class StockRaster {
  public:
   /// A block over a rectangle, up to `top`; nothing beyond it.

@@ -50,7 +50,8 @@ class Stock {
       const double dy = place(0, j).y - tip.y, under = radius * radius - dy * dy;
       if (under <= 0) continue;
       const double half = std::sqrt(under);
-      for (auto i = std::size_t(std::max(0.0, std::ceil((tip.x - half - low_.x) / cell_))); i < columns_ && place(i, j).x <= tip.x + half; ++i)
+      for (auto i = std::size_t(std::max(0.0, std::ceil((tip.x - half - low_.x) / cell_)));
+           i < columns_ && place(i, j).x <= tip.x + half; ++i)
         if (double& top = top_[j * columns_ + i]; top > tip.z + 1e-9) top = tip.z, ++lowered;
     }
     return double(lowered) * cell_ * cell_;
@@ -115,7 +116,8 @@ TEST(Roughing, TakesTheStockOffAndLeavesTheAllowance) {
       if (m.kind == MoveKind::rapid) rapid_depth = std::max(rapid_depth, depth);
       // Into stock it goes down by ramps only.
       const double along = std::hypot(p.x - before.x, p.y - before.y), down = before.z - p.z;
-      if (const double slope = std::atan2(down, along); down > 1e-9 && depth > 0.1 && slope > steepest) steepest = slope, steepest_at = p;
+      if (const double slope = std::atan2(down, along); down > 1e-9 && depth > 0.1 && slope > steepest)
+        steepest = slope, steepest_at = p;
       before = p;
     });
     EXPECT_LE(rapid_depth, 1e-9) << "case " << k << ": a rapid move cuts";
@@ -172,7 +174,8 @@ TEST(Roughing, EntersPocketsDownHelicesElseDownRamps) {
     for (const Move& m : milled->path.moves) {
       if (m.kind == MoveKind::counter_clockwise && m.end.z < at.z) {
         ++helices;
-        const double r0 = std::hypot(at.x - m.centre.x, at.y - m.centre.y), r1 = std::hypot(m.end.x - m.centre.x, m.end.y - m.centre.y);
+        const double r0 = std::hypot(at.x - m.centre.x, at.y - m.centre.y),
+                     r1 = std::hypot(m.end.x - m.centre.x, m.end.y - m.centre.y);
         EXPECT_NEAR(r0, r1, 1e-9);
         EXPECT_GE(r0, o.tool.radius / 4 - o.accuracy.unit);
         steepest = std::max(steepest, std::atan((at.z - m.end.z) / (std::numbers::pi * r0)));
@@ -209,7 +212,8 @@ TEST(Roughing, OffsetsCutStripsOfTheStepOver) {
   const std::size_t n = 81;
   std::vector<double> heights;
   for (std::size_t j = 0; j < n; ++j)
-    for (std::size_t i = 0; i < n; ++i) heights.push_back(std::hypot(double(i) / 4 - 9, double(j) / 4 - 11) < 4 ? 3 : 0);
+    for (std::size_t i = 0; i < n; ++i)
+      heights.push_back(std::hypot(double(i) / 4 - 9, double(j) / 4 - 11) < 4 ? 3 : 0);
   auto made = Terrain::from_grid({n, n, {0, 0}, 0.25, 0.25, Terrain::Split::rising}, heights);
   const auto part = std::make_shared<const Terrain>(std::move(*made));
   std::map<RoughPattern, double> share;
@@ -235,7 +239,8 @@ TEST(Roughing, OffsetsCutStripsOfTheStepOver) {
     });
     EXPECT_GT(all, 300.0);
     share[pattern] = wide / all;
-    std::printf("pattern %d: %.1f %% of the area in strips wider than 1.5 step-overs\n", int(pattern), 100 * wide / all);
+    std::printf("pattern %d: %.1f %% of the area in strips wider than 1.5 step-overs\n", int(pattern),
+                100 * wide / all);
   }
   EXPECT_LT(share[RoughPattern::offsets], 0.03);
   EXPECT_GT(share[RoughPattern::zigzag], 2 * share[RoughPattern::offsets]);
@@ -260,7 +265,8 @@ TEST(Roughing, OfOtherCuttersNeverCutsIntoRandomTerrains) {
     if (random() % 2 == 0) o.tool.allowance = radius / 8;
     o.pattern = random() % 3 == 0 ? RoughPattern::zigzag : RoughPattern::offsets;
     o.step_over = radius * std::array{0.5, 0.9, 1.5}[random() % 3], o.step_down = std::max(height / 4, radius / 4);
-    o.accuracy.unit = std::pow(10.0, std::floor(std::log10(radius * 1e-3)) - 1), o.accuracy.tolerance = 40 * o.accuracy.unit;
+    o.accuracy.unit = std::pow(10.0, std::floor(std::log10(radius * 1e-3)) - 1),
+    o.accuracy.tolerance = 40 * o.accuracy.unit;
     o.stock_top = (*part)->highest().z + (*part)->origin().z + radius / 3;
     const std::string what = std::string(name(family)) + ", case " + std::to_string(k) + ", " + o.tool.cutter->text();
     const auto milled = mill_rough(*part, o);
@@ -278,14 +284,16 @@ TEST(Roughing, OfOtherCuttersNeverCutsIntoRandomTerrains) {
     EXPECT_LE(left->report().rapid_cut.value, 1e-6 * scale) << what << ": rapid moves cut\n" << c;
     if (o.tool.cutter->kind() == Cutter::Kind::ball) {
       const double grown = radius + o.tool.allowance;
-      const PathCheck check =
-          check_path(**part, *part, milled->path, grown, grown + 1, (*part)->lowest().z + grown, radius / 12, 10, [](const Move&) { return false; });
+      const PathCheck check = check_path(**part, *part, milled->path, grown, grown + 1, (*part)->lowest().z + grown,
+                                         radius / 12, 10, [](const Move&) { return false; });
       EXPECT_LE(check.deepest, 1e-9 * scale) << what << "\n" << c;
     } else {
       const TipHeights heights(*part, *o.tool.cutter, o.tool.allowance, (*part)->lowest().z + o.tool.allowance);
-      const TipCheck check = check_tip(**part, heights, milled->path, 1e9, radius / 12, 10, [](const Move&) { return false; });
-      EXPECT_LE(check.deepest, 1e-9 * scale) << what << " gouges at " << check.deepest_at.x + origin.x << " " << check.deepest_at.y + origin.y
-                                             << "\n" << c;
+      const TipCheck check =
+          check_tip(**part, heights, milled->path, 1e9, radius / 12, 10, [](const Move&) { return false; });
+      EXPECT_LE(check.deepest, 1e-9 * scale)
+          << what << " gouges at " << check.deepest_at.x + origin.x << " " << check.deepest_at.y + origin.y << "\n"
+          << c;
     }
     if (HasFailure()) return;
   }

@@ -1,5 +1,5 @@
-// Scallop, rest and parallel passes over random small terrains of all families and over needles, by brute force: never in the part,
-// cuts within the tolerance of it, and no scallop higher than asked for.
+// Scallop, rest and parallel passes over random small terrains of all families and over needles, by brute force: never
+// in the part, cuts within the tolerance of it, and no scallop higher than asked for.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -55,22 +55,26 @@ RandomCase any_case(std::mt19937& random, int k, double flatter = 1) {
   if (random() % 4 == 0) c.tool.allowance = c.tool.radius / 5;
   c.accuracy.unit = std::pow(10.0, std::floor(std::log10(c.scallop / 1600)));
   c.accuracy.tolerance = 200 * c.accuracy.unit;
-  c.what += ", case " + std::to_string(k) + ", radius " + std::to_string(c.tool.radius) + ", scallop " + std::to_string(c.scallop) +
-            ", allowance " + std::to_string(c.tool.allowance);
+  c.what += ", case " + std::to_string(k) + ", radius " + std::to_string(c.tool.radius) + ", scallop " +
+            std::to_string(c.scallop) + ", allowance " + std::to_string(c.tool.allowance);
   return c;
 }
 
 void expect_near(const RandomCase& c, const ToolPath& path) {
-  const double grown = c.tool.radius + c.tool.allowance, scale = std::max(c.part->extent(), grown), feed = MillMotion{}.feed;
+  const double grown = c.tool.radius + c.tool.allowance, scale = std::max(c.part->extent(), grown),
+               feed = MillMotion{}.feed;
   const double step = std::sqrt(8 * c.accuracy.tolerance * c.tool.radius) / 10;
-  const PathCheck check = check_path(*c.part, c.part, path, grown, grown + c.accuracy.tolerance, -1e300, std::max(step, scale / 1000), 10,
-                                     [feed](const Move& m) { return m.kind != MoveKind::rapid && m.feed == feed; });
+  const PathCheck check =
+      check_path(*c.part, c.part, path, grown, grown + c.accuracy.tolerance, -1e300, std::max(step, scale / 1000), 10,
+                 [feed](const Move& m) { return m.kind != MoveKind::rapid && m.feed == feed; });
   EXPECT_GT(check.places, 20u) << c.what;
-  EXPECT_LE(check.deepest, 1e-9 * scale) << c.what << " gouges at " << check.deepest_at.x << " " << check.deepest_at.y << " "
-                                         << check.deepest_at.z << "\n" << c.terrain;
+  EXPECT_LE(check.deepest, 1e-9 * scale) << c.what << " gouges at " << check.deepest_at.x << " " << check.deepest_at.y
+                                         << " " << check.deepest_at.z << "\n"
+                                         << c.terrain;
   // How near lines are is not proven; next to rims they may begin a few units too early.
-  EXPECT_LE(check.highest, 0.25 * c.accuracy.tolerance) << c.what << " is too high at " << check.highest_at.x << " " << check.highest_at.y << " "
-                                         << check.highest_at.z << "\n" << c.terrain;
+  EXPECT_LE(check.highest, 0.25 * c.accuracy.tolerance) << c.what << " is too high at " << check.highest_at.x << " "
+                                                        << check.highest_at.y << " " << check.highest_at.z << "\n"
+                                                        << c.terrain;
 }
 
 double dexel_cell(const RandomCase& c) { return std::max(c.part->extent() / 40, c.tool.radius / 12); }
@@ -92,8 +96,9 @@ TEST(RandomScallopPasses, LeaveNoMoreThanTheScallop) {
     const double grown = c.tool.radius + c.tool.allowance;
     const LeftCheck check = check_left(c.part, milled->path, grown, c.scallop, dexel_cell(c));
     if (c.tool.allowance == 0) {
-      EXPECT_LE(check.worst, 1e-9 * c.part->extent()) << c.what << ": " << check.over << " of " << check.dexels << " at " << check.at.x
-                                                      << " " << check.at.y << "\n" << c.terrain;
+      EXPECT_LE(check.worst, 1e-9 * c.part->extent())
+          << c.what << ": " << check.over << " of " << check.dexels << " at " << check.at.x << " " << check.at.y << "\n"
+          << c.terrain;
     }
     if (HasFailure()) return;
   }
@@ -117,8 +122,9 @@ TEST(RandomParallelPasses, LeaveNoMoreThanTheScallop) {
     ASSERT_TRUE(milled) << c.what << ": " << milled.error().text() << "\n" << c.terrain;
     EXPECT_EQ(milled->report.open_places, 0u) << c.what << ", angle " << o.angle << "\n" << c.terrain;
     const LeftCheck check = check_left(c.part, milled->path, c.tool.radius, c.scallop, dexel_cell(c));
-    EXPECT_LE(check.worst, 1e-9 * c.part->extent()) << c.what << ", angle " << o.angle << ": " << check.over << " of " << check.dexels
-                                                    << " at " << check.at.x << " " << check.at.y << "\n" << c.terrain;
+    EXPECT_LE(check.worst, 1e-9 * c.part->extent()) << c.what << ", angle " << o.angle << ": " << check.over << " of "
+                                                    << check.dexels << " at " << check.at.x << " " << check.at.y << "\n"
+                                                    << c.terrain;
     if (HasFailure()) return;
   }
 }
@@ -132,7 +138,8 @@ TEST(RandomRestPasses, LeaveNoMoreThanTheScallopAfterALargerBall) {
     if (!c.part) continue;
     c.tool.allowance = 0;
     RestOptions o{c.tool, c.accuracy, {}, c.scallop, 20};
-    o.after = c.tool.radius * std::array{1.3, 2.0, 4.0}[random() % 3], o.threshold = c.scallop * std::array{0.5, 1.0}[random() % 2];
+    o.after = c.tool.radius * std::array{1.3, 2.0, 4.0}[random() % 3],
+    o.threshold = c.scallop * std::array{0.5, 1.0}[random() % 2];
     c.what += ", after " + std::to_string(o.after) + ", threshold " + std::to_string(o.threshold);
     const auto milled = mill_rest(c.part, o);
     if (!milled) {
@@ -149,9 +156,11 @@ TEST(RandomRestPasses, LeaveNoMoreThanTheScallopAfterALargerBall) {
     ASSERT_TRUE(empty);
     const Dexels dexels{empty->place(0, 0), cell, empty->columns(), empty->rows()};
     const std::vector<double> larger = eroded(c.part, o.after, o.after, dexels);
-    const LeftCheck check = check_left(c.part, milled->path, c.tool.radius, c.scallop, cell, larger, 2 * cell * cell / c.tool.radius);
-    EXPECT_LE(check.worst, 1e-9 * c.part->extent()) << c.what << ": " << check.over << " of " << check.dexels << " at " << check.at.x
-                                                    << " " << check.at.y << "\n" << c.terrain;
+    const LeftCheck check =
+        check_left(c.part, milled->path, c.tool.radius, c.scallop, cell, larger, 2 * cell * cell / c.tool.radius);
+    EXPECT_LE(check.worst, 1e-9 * c.part->extent())
+        << c.what << ": " << check.over << " of " << check.dexels << " at " << check.at.x << " " << check.at.y << "\n"
+        << c.terrain;
     if (HasFailure()) return;
   }
   EXPECT_GE(3 * done, cases);
