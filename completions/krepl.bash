@@ -35,6 +35,7 @@ _krepl() {
       return ;;
     --zones) mapfile -t COMPREPLY < <(compgen -W "sub-river stem whole" -- "$current"); return ;;
     --outlet) mapfile -t COMPREPLY < <(compgen -W "guess" -- "$current"); return ;;
+    --pattern) mapfile -t COMPREPLY < <(compgen -W "offsets zigzag" -- "$current"); return ;;
     --strategy) mapfile -t COMPREPLY < <(compgen -W "parallel rough waterline pencil scallop rest" -- "$current"); return ;;
     --direction) mapfile -t COMPREPLY < <(compgen -W "zigzag one-way climb conventional" -- "$current"); return ;;
     --post) mapfile -t COMPREPLY < <(compgen -W "linuxcnc grbl" -- "$current"); return ;;

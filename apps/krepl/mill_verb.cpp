@@ -23,7 +23,7 @@ struct MillVerbOptions {
   std::string output, tool, strategy = "parallel", direction, post = "linuxcnc", unit = "mm",
                             control_point = "tip";
   std::string boundary, shallow;
-  std::string step_down, ramp_angle, stock_top, stock_margin, steep, valley_angle, shortest, after, threshold;
+  std::string pattern, step_down, ramp_angle, stock_top, stock_margin, steep, valley_angle, shortest, after, threshold;
   std::string step_over, scallop, tolerance, allowance, angle, bottom, safe_height, clearance, feed, plunge_feed,
       spindle;
   int decimals = -1, tool_number = 1;
@@ -66,9 +66,10 @@ Status take(const char* option, const std::string& text, double& value, bool pos
 Status take_tool(const std::string& text, MillPlan& plan) {
   const Result<Cutter> cutter = Cutter::parse(text);
   if (!cutter) return cutter.error();
-  const bool takes_all = plan.strategy == Strategy::parallel || plan.strategy == Strategy::waterline;
+  const bool takes_all =
+      plan.strategy == Strategy::parallel || plan.strategy == Strategy::waterline || plan.strategy == Strategy::rough;
   if (cutter->kind() != Cutter::Kind::ball && !takes_all)
-    return usage(fmt::format("paths of tool '{}' are made by strategies parallel and waterline only", text),
+    return usage(fmt::format("paths of tool '{}' are made by strategies parallel, waterline and rough only", text),
                  "use one of them, or --tool ball:DIAMETER");
   plan.parallel.tool.radius = cutter->radius();
   if (cutter->kind() != Cutter::Kind::ball) plan.parallel.tool.cutter = *cutter, plan.gcode.has_centre = false;
@@ -142,7 +143,7 @@ Status check_meaning(const MillVerbOptions& o, Strategy strategy) {
              rest = strategy == Strategy::rest, by_scallop = strategy == Strategy::scallop || rest;
   const Meaning meanings[] = {{"--step-over", o.step_over, parallel || rough, "parallel, rough"},
                               {"--scallop", o.scallop, parallel || by_scallop, "parallel, scallop, rest"},
-                              {"--angle", o.angle, parallel || rough, "parallel, rough"},
+                              {"--angle", o.angle, parallel || (rough && o.pattern == "zigzag"), "parallel, rough with --pattern zigzag"},
                               {"--direction", o.direction, parallel || waterline, "parallel, waterline"},
                               {"--step-down", o.step_down, rough || waterline, "rough, waterline"},
                               {"--steep", o.steep, waterline, "waterline"},
@@ -153,6 +154,7 @@ Status check_meaning(const MillVerbOptions& o, Strategy strategy) {
                               {"--threshold", o.threshold, rest, "rest"},
                               {"--shortest", o.shortest, pencil, "pencil"},
                               {"--bottom", o.bottom, !pencil && !by_scallop, "parallel, rough, waterline"},
+                              {"--pattern", o.pattern, rough, "rough"},
                               {"--ramp-angle", o.ramp_angle, rough, "rough"},
                               {"--stock-top", o.stock_top, rough, "rough"},
                               {"--stock-margin", o.stock_margin, rough, "rough"}};
@@ -173,6 +175,9 @@ Status take_rough(const MillVerbOptions& o, MillPlan& plan) {
   RoughOptions& r = plan.rough;
   r.tool = p.tool, r.accuracy = p.accuracy, r.motion = p.motion, r.step_over = p.step_over, r.angle = p.angle,
   r.bottom = p.bottom;
+  if (!o.pattern.empty())
+    if (Status s = choose("--pattern", o.pattern, {{"offsets", RoughPattern::offsets}, {"zigzag", RoughPattern::zigzag}}, r.pattern); !s)
+      return s;
   if (Status s = take("--step-down", o.step_down, r.step_down); !s) return s;
   if (Status s = take("--ramp-angle", o.ramp_angle, r.ramp_angle); !s) return s;
   if (Status s = take("--stock-margin", o.stock_margin, r.stock_margin, false); !s) return s;
@@ -264,7 +269,7 @@ Result<MillPlan> make_plan(const MillVerbOptions& o) {
   return plan;
 }
 
-void tell_strategy(const MillReport& r, Strategy strategy, Session& session) {
+void tell_strategy(const MillReport& r, Strategy strategy, bool by_scallop, Session& session) {
   if (strategy == Strategy::scallop || strategy == Strategy::rest) {
     session.detail(fmt::format("passes     {}, {} more where the scallop would be exceeded; {} points along them", r.passes,
                                r.extra_passes, r.curve_points));
@@ -282,19 +287,20 @@ void tell_strategy(const MillReport& r, Strategy strategy, Session& session) {
     session.detail(fmt::format("proofs     {} moves are not proven free and taken over what is in their way", r.lifted_moves));
     return;
   }
+  if (strategy == Strategy::rough) {
+    session.detail(fmt::format("levels     {}; {} rings or passes, {:.6g} apart; {} too short to be entered, {} moves left out", r.levels, r.passes,
+                               r.step_over, r.skipped_cuts, r.lifted_moves));
+    return;
+  }
   session.detail(fmt::format("curves     {} points above them, {} bodies looked at", r.curve_points, r.touches));
   session.detail(fmt::format("passes     {}, {:.6g} apart, at {:.6g} degrees", r.passes, r.step_over, r.angle));
-  if (r.levels > 0)
-    session.detail(fmt::format("levels     {}; {} stretches are too short to be entered", r.levels, r.skipped_cuts));
-  if (r.sections > 0)
-    session.detail(
-        fmt::format("scallops   {} sections looked at, {} pieces of passes added, {} sections where more is left",
-                    r.sections, r.extra_passes, r.uneven_sections));
+  if (by_scallop)
+    session.detail(fmt::format("scallops   {} pieces of passes added, {} places where the scallop is not proven", r.extra_passes, r.open_places));
 }
 
 void tell(const MillReport& r, Strategy strategy, std::size_t lines, const MillVerbOptions& o, const Stopwatch& total,
           Session& session) {
-  tell_strategy(r, strategy, session);
+  tell_strategy(r, strategy, !o.scallop.empty(), session);
   session.summary(
       fmt::format(
           "{} cuts: {} lines, {} arcs, {} rapid moves; {:.6g} {} cut, {:.6g} {} rapid, about {:.1f} min; {} lines of "
@@ -347,7 +353,7 @@ int run_mill(const MillVerbOptions& options, Session& session) {
 }
 
 void add_path_options(Verb& verb, MillVerbOptions& o) {
-  verb.add_option("--tool", o.tool, "Cutter: ball:D; for parallel and waterline also flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE, taper:D:ANGLE:TIP_RADIUS").required().type_name("KIND:SIZE");
+  verb.add_option("--tool", o.tool, "Cutter: ball:D; for parallel, waterline and rough also flat:D, bull:D:CORNER_RADIUS, cone:D:ANGLE, taper:D:ANGLE:TIP_RADIUS").required().type_name("KIND:SIZE");
   verb.add_option("--strategy", o.strategy,
                   "parallel (default): passes in vertical planes; rough: out of a block, level by level; waterline: around the "
                   "part, level by level; pencil: along the valleys and the feet of walls; scallop: all over, at constant distances "
@@ -382,6 +388,9 @@ void add_path_options(Verb& verb, MillVerbOptions& o) {
       .type_name("DEGREES");
   verb.add_option("--shortest", o.shortest, "pencil: valleys shorter than that are left out (default: the tool's radius)")
       .type_name("LENGTH");
+  verb.add_option("--pattern", o.pattern,
+                  "rough: offsets (default): in rings parallel to the part, from outside inwards; zigzag: in parallel passes")
+      .type_name("NAME");
   verb.add_option("--ramp-angle", o.ramp_angle, "rough: steepest way down into the stock (default: 3)")
       .type_name("DEGREES");
   verb.add_option("--stock-top", o.stock_top, "rough: top of the block (default: the part's)").type_name("Z");

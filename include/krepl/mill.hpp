@@ -20,7 +20,7 @@ enum class ControlPoint { tip, centre };
 struct MillTool {
   double radius = 0;     ///< of a ball-nose cutter: finite and positive
   double allowance = 0;  ///< stock left everywhere, measured normal to the surface: 0 or more
-  /// Another cutter than a ball, in place of `radius`, for parallel passes and waterlines; other strategies refuse it. The rims of
+  /// Another cutter than a ball, in place of `radius`, for parallel passes, waterlines and roughing; other strategies refuse it. The rims of
   /// cones and tapers leave up to 1 / cos(angle / 4) times the allowance.
   std::optional<Cutter> cutter;
 };
@@ -63,9 +63,9 @@ struct ParallelOptions {
   MillMotion motion;
   /// Distance of neighbouring passes in the plane, or, if 0, from `scallop`.
   double step_over = 0;
-  /// For balls: greatest height of what is left between passes, tolerance included. Where the surface is steep across the passes
-  /// or hollow, gaps are halved, up to four times, until it holds in cross-sections half a pass distance apart; what
-  /// then remains (next to walls and in sharp valleys along the passes) is counted in the report.
+  /// For balls: greatest height of what is left above all that the ball can reach (the part's closing by it, within the limits). It is
+  /// proven, as by ScallopOptions; where that fails, as on slopes across the passes, in hollows and along walls, passes are added
+  /// between others, in up to ten rounds. What then remains is counted in the report. Along a wall the tool's shank counts.
   double scallop = 0;
   double angle =
       0;  ///< of the passes, degrees counter-clockwise from +x; turned a little (report) to meet places of few decimals
@@ -89,16 +89,15 @@ struct MillReport {
   std::size_t curve_points = 0;     ///< of the polylines above the drive curves that moves were fitted to
   std::uint64_t touches = 0;        ///< evaluations of a triangle's sum with the ball
   std::size_t levels = 0;           ///< of roughing and waterlines
-  std::size_t skipped_cuts = 0;     ///< of roughing: stretches of passes too short to be entered; of waterlines: rings as
+  std::size_t skipped_cuts = 0;     ///< of roughing: rings, or stretches of passes, too short to be entered; of waterlines: rings as
                                     ///< small as a unit; of pencil passes: short valleys
-  std::size_t lifted_moves = 0;     ///< of waterlines and pencil passes: moves not proven free, taken over what is in their way
+  std::size_t lifted_moves = 0;     ///< moves not proven free: of waterlines, pencil, scallop and rest passes taken over what is in
+                                    ///< their way, of roughing left out
   double step_over = 0;             ///< used
   std::size_t extra_passes = 0;     ///< parts of passes between others, for the sake of the scallop
-  std::size_t sections = 0;         ///< across the passes, looked at for that
-  std::size_t uneven_sections = 0;  ///< of them, where the scallop is exceeded
   double angle = 0;                 ///< used, degrees
-  std::size_t open_places = 0;      ///< of scallop and rest passes: cubes a hundredth of a step-over large in which the scallop
-                                    ///< is not proven to be kept
+  std::size_t open_places = 0;      ///< with a scallop: places where more is left, and cubes a hundredth of a step-over large in which
+                                    ///< it is not proven to be kept
 };
 
 struct MilledPath {
@@ -117,13 +116,20 @@ struct MilledPath {
 Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const ParallelOptions& options,
                                  const Context& context = {});
 
+/// How levels are cleared in roughing.
+enum class RoughPattern {
+  offsets,  ///< in rings parallel to the part, from outside of the stock inwards
+  zigzag    ///< in parallel passes
+};
+
 struct RoughOptions {
   MillTool tool;  ///< with the stock that finishing is to take off as its allowance
+  RoughPattern pattern = RoughPattern::offsets;
   MillAccuracy accuracy;
   MillMotion motion;
   double step_over = 0;   ///< distance of neighbouring passes
   double step_down = 0;   ///< greatest distance of levels
-  double angle = 0;       ///< of the passes, as ParallelOptions has it
+  double angle = 0;       ///< of the passes of zigzag, as ParallelOptions has it
   double ramp_angle = 3;  ///< steepest way down into the stock, degrees, above 0 and below 90
   /// The stock is a block: the part's bounding rectangle and `stock_margin` on all sides, up to `stock_top` (nothing
   /// given: the part's top).
@@ -134,16 +140,23 @@ struct RoughOptions {
 };
 
 /// Roughing by levels: takes a part out of a block of stock. On every level, from the top, the places where the tool
-/// does not touch the part (grown by the allowance) are cut in parallel passes; neighbouring passes make up regions
-/// that are cut without lifting the tool.
+/// does not touch the part (grown by the allowance) are cleared.
 ///
-/// A region is entered from outside of the stock if one of its passes gets there, else by a ramp along its first pass.
-/// Regions with no pass longer than the tool's radius, or as long as the ramp needs, are left to finishing and counted.
-/// Above the levels the tool moves at the safe height, which is above the stock. All on lattice points of levels that
-/// are lattice heights: nothing is fitted, moves between the ends of passes are proven free by the same bounds as those
-/// of mill_parallel.
+/// In offsets: rings at equal distances (the step-over, or the tool's radius if that is less) from where the tool may not be, the
+/// farthest first, each of which takes off a strip of that width; where nothing is in the way, along the sides of the stock. Rings are
+/// lines and arcs, entered from outside of the stock, from rings cut before, else down a helix (G3 with Z) where there is room for one
+/// of a quarter of the tool's radius, else down a ramp along the ring. Rings follow distances on a raster of an eighth of the step-over; each move
+/// is proven free like those of mill_waterline, and one that is not is left out and counted. Stock is kept on the raster, so
+/// that nothing is cut in the air.
 ///
-/// Errors: as mill_parallel; a step down or ramp angle out of its range.
+/// In zigzag: parallel passes; neighbouring passes make up regions that are cut without lifting the tool, entered from outside of the
+/// stock if one of their passes gets there, else by a ramp along the first pass. Moves are proven free by the same bounds as those of mill_parallel.
+///
+/// Regions with no pass or ring longer than the tool's radius are left to finishing and counted. Above the levels the tool moves at the safe
+/// height, which is above the stock. All on lattice points of levels that are lattice heights.
+///
+/// Errors: as mill_parallel; a step down or ramp angle out of its range; a step-over that means more than 8 million places
+/// of the raster (offsets).
 Result<MilledPath> mill_rough(std::shared_ptr<const Terrain> part, const RoughOptions& options,
                               const Context& context = {});
 

@@ -15,10 +15,11 @@ using namespace vectors;
 namespace {
 
 constexpr double root3 = 1.7320508075688772;
-constexpr int most_levels = 8;       // of halving a tile
-constexpr double rounding = 1e-12;   // of squared distances, relative
-constexpr double smallest = 0.01;    // half a cube's diagonal or so, of half the distance of passes on a plane
-constexpr double widest_cone = 1.4;  // radians: beyond it directions between those of two touched places are left to subdivision
+constexpr int most_levels = 8;      // of halving a tile
+constexpr double rounding = 1e-12;  // of squared distances, relative
+constexpr double smallest = 0.01;   // half a cube's diagonal or so, of half the distance of passes on a plane
+constexpr double widest_cone =
+    1.56;  // radians: beyond it directions between those of two touched places are left to subdivision
 
 Point3 nearest_on_segment(Point3 p, Point3 a, Point3 b) {
   const Point3 d = b - a;
@@ -51,16 +52,45 @@ Point3 nearest_on_triangle(Point3 p, const Triangle& t) {
   return t.a + (vb / all) * ab + (vc / all) * ac;
 }
 
+/// Of the triangle and all below it: where p is lower than what is nearest on the triangle, on the upright wall below
+/// its part that is higher than p.
+Point3 nearest_on_body(Point3 p, const Triangle& t) {
+  const Point3 q = nearest_on_triangle(p, t);
+  if (q.z <= p.z) return q;
+  const Point3 corners[3] = {t.a, t.b, t.c};
+  Point3 higher[4];
+  int count = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Point3 a = corners[k], b = corners[(k + 1) % 3];
+    if (a.z >= p.z) higher[count++] = {a.x, a.y, p.z};
+    if ((a.z >= p.z) == (b.z >= p.z)) continue;
+    const double s = (p.z - a.z) / (b.z - a.z);
+    higher[count++] = {a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), p.z};
+  }
+  Point3 best = q;
+  double least = 1e300;
+  int left = 0, right = 0;
+  for (int k = 0; k < count; ++k) {
+    const Point3 a = higher[k], b = higher[(k + 1) % count];
+    const double turn = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+    left += turn > 0, right += turn < 0;
+    const Point3 at = nearest_on_segment(p, a, b);
+    if (const double d = distance(p, at); d < least) least = d, best = at;
+  }
+  return count > 2 && (left == 0 || right == 0) && left + right > 0 ? p : best;
+}
+
 }  // namespace
 
 /// One tile of a proof: cubes, and for each size the triangles and pieces of the path that are near.
 class CoverTile {
  public:
   CoverTile(const CoverProof& proof, const std::function<bool(Point3, double)>& is_of_interest)
-      : p_(proof), interest_(is_of_interest), o_(proof.o_), levels_(std::size_t(proof.levels_ + 1)) {
+      : p_(proof), interest_(is_of_interest), o_(proof.o_), levels_(std::size_t(proof.levels_ + 2)) {
     contact_ = o_.radius + o_.allowance;
     lift_ = o_.allowance + o_.height;
     room_ = (o_.radius - o_.off) * (o_.radius - o_.off) * (1 - rounding);
+    sure_ = proof.reach_ / 2;
   }
 
   void run(std::size_t tile, std::vector<Point3>& open) {
@@ -101,7 +131,8 @@ class CoverTile {
     const auto cell = [&](double x, double first, std::size_t count) {
       return std::size_t(std::clamp(std::floor((x - first) / p_.bucket_), 0.0, double(count - 1)));
     };
-    const std::size_t c0 = cell(middle.x - far, p_.first_.x, p_.across_), c1 = cell(middle.x + far, p_.first_.x, p_.across_);
+    const std::size_t c0 = cell(middle.x - far, p_.first_.x, p_.across_),
+                      c1 = cell(middle.x + far, p_.first_.x, p_.across_);
     const std::size_t r0 = cell(middle.y - far, p_.first_.y, p_.up_), r1 = cell(middle.y + far, p_.first_.y, p_.up_);
     for (std::size_t r = r0; r <= r1; ++r)
       for (std::size_t n = p_.begin_[r * p_.across_ + c0]; n < p_.begin_[r * p_.across_ + c1 + 1]; ++n)
@@ -115,20 +146,36 @@ class CoverTile {
     const double e = side * root3 / 2;
     if (!list(c, e, depth)) return;
     if (proven(c, e, level)) return;
-    // Inside of the sum with the ball nothing rests; beside the part the foot of walls is not looked at.
+    // Beside the part the outer side is not looked at, nor what is touched from there in the smallest cubes.
     const DropCutter::Contact below = p_.smaller_[std::size_t(depth)].at({c.x, c.y});
-    if (below.touches() && below.height >= c.z) return;
     if (!below.touches() && drop_walls(level, e)) {
       if (level.touched.empty() || proven(c, e, level)) return;
     }
     if (interest_ && !interest_(c, depth == p_.levels_ ? 0 : side / 2)) return;
     if (depth == p_.levels_) {
-      open_->push_back(c);
+      if (below.touches()) open_->push_back(c);
+      return;
+    }
+    if (Point3 place; side <= sure_ && is_open(c, e, depth, place)) {
+      open_->push_back(place);
       return;
     }
     for (int k = 0; k < 8; ++k)
       look({c.x + (k & 1 ? 1 : -1) * side / 4, c.y + (k & 2 ? 1 : -1) * side / 4, c.z + (k & 4 ? 1 : -1) * side / 4},
            side / 2, depth + 1);
+  }
+
+  /// Whether a place of the surface in the cube is not covered: one where the ball touches what is nearest to the
+  /// middle. Then there is no need to look closer.
+  bool is_open(Point3 c, double e, int depth, Point3& place) {
+    const Level& level = levels_[std::size_t(depth)];
+    const std::size_t best = std::size_t(std::min_element(level.away.begin(), level.away.end()) - level.away.begin());
+    place = level.place[best] + contact_ * level.normal[best];
+    if (distance(place, c) > e) return false;
+    if (interest_ && !interest_(place, 0)) return false;
+    const double tiny = p_.tiny_;
+    if (!list(place, tiny, depth + 1) || proven(place, tiny, levels_[std::size_t(depth) + 1])) return false;
+    return p_.smaller_[std::size_t(p_.levels_)].at({place.x, place.y}).touches();
   }
 
   /// The triangles that a ball with its centre in the cube may touch from above, and pieces near it. False if the ball
@@ -141,9 +188,9 @@ class CoverTile {
     const std::size_t count = above == nullptr ? triangles_.size() : above->triangles.size();
     for (std::size_t n = 0; n < count; ++n) {
       const std::uint32_t t = above == nullptr ? std::uint32_t(n) : above->triangles[n];
-      const Point3 q = nearest_on_triangle(c, triangles_[t]), way = c - q;
+      const Point3 q = nearest_on_body(c, triangles_[t]), way = c - q;
       const double away = length(way);
-      if (away < contact_ - e) return false;
+      if (away < contact_ - e || away == 0) return false;
       if (away > contact_ + e) continue;
       level.triangles.push_back(t), level.place.push_back(q), level.away.push_back(away);
       level.normal.push_back((1 / away) * way), level.angle.push_back(std::asin(std::min(1.0, e / away)));
@@ -154,21 +201,19 @@ class CoverTile {
       level.touched[n] = level.triangles[n];
       level.limit.push_back(level.place[n] + lift_ * level.normal[n]);
     }
-    // What is touched from below does not count, but hides others.
-    drop_if(level, [&](std::size_t n) { return level.away[n] * level.normal[n].z < -1.01 * e; });
     if (level.touched.empty()) return false;
     const double far = 3 * p_.reach_ + e;
     const std::size_t pieces = above == nullptr ? near_.size() : above->pieces.size();
     for (std::size_t n = 0; n < pieces; ++n) {
       const std::uint32_t k = above == nullptr ? std::uint32_t(n) : above->pieces[n];
-      const Point3 d = nearest_on_segment(c, near_[k].from, near_[k].to) - c;
+      const Point3 d = nearest_of(c, near_[k]) - c;
       if (dot(d, d) <= far * far) level.pieces.push_back(k);
     }
     return true;
   }
 
-  /// Drops triangles to which no c of the cube is as near as to that which is nearest to the middle. The distance from a triangle
-  /// changes along m, so the difference of two changes no faster than the difference of their m.
+  /// Drops triangles to which no c of the cube is as near as to that which is nearest to the middle. The distance from
+  /// a triangle changes along m, so the difference of two changes no faster than the difference of their m.
   void drop_farther(double e, Level& level) const {
     if (level.triangles.size() < 2) return;
     const std::size_t best = std::size_t(std::min_element(level.away.begin(), level.away.end()) - level.away.begin());
@@ -177,7 +222,8 @@ class CoverTile {
     std::size_t kept = 0;
     for (std::size_t n = 0; n < level.triangles.size(); ++n) {
       if (level.away[n] - away > e * (distance(level.normal[n], normal) + level.angle[n] + angle)) continue;
-      level.triangles[kept] = level.triangles[n], level.place[kept] = level.place[n], level.normal[kept] = level.normal[n];
+      level.triangles[kept] = level.triangles[n], level.place[kept] = level.place[n],
+      level.normal[kept] = level.normal[n];
       level.angle[kept] = level.angle[n], level.away[kept] = level.away[n];
       ++kept;
     }
@@ -212,7 +258,8 @@ class CoverTile {
     Point3 mean{}, axis{};
     for (std::size_t n = 0; n < level.touched.size(); ++n) mean = mean + level.limit[n], axis = axis + level.normal[n];
     mean = (1 / double(level.touched.size())) * mean;
-    // Directions between those of two touched places are sums of them with weights that add up to 1 / cos(cone) at most.
+    // Directions between those of two touched places are sums of them with weights that add up to 1 / cos(cone) at
+    // most.
     double cone = widest_cone;
     if (const double size = length(axis); size > 0) {
       double widest = 0;
@@ -221,15 +268,31 @@ class CoverTile {
       cone = std::min(cone, widest);
     }
     const double more = cone < widest_cone ? 1 / std::cos(cone) - 1 : -1;
+    // The ball is as low there, whatever it touches.
     for (const std::uint32_t k : level.pieces)
-      if (reaches(nearest_on_segment(mean, near_[k].from, near_[k].to), c, e, level, more)) return true;
+      if (distance(nearest_of(c, near_[k]), c) + e <= o_.height - o_.off) return true;
+    for (const std::uint32_t k : level.pieces)
+      if (reaches(nearest_of(mean, near_[k]), c, e, level, more)) return true;
     return false;
+  }
+
+  /// A place of the piece near p. With a shank the ball may as well be higher than the path.
+  Point3 nearest_of(Point3 p, const PathPiece& piece) const {
+    const Point3 q = nearest_on_segment(p, piece.from, piece.to);
+    if (!o_.shank) return q;
+    const Point3 level_from{piece.from.x, piece.from.y, 0}, level_to{piece.to.x, piece.to.y, 0};
+    const Point3 along = level_to - level_from, flat{p.x, p.y, 0};
+    const double squared = dot(along, along),
+                 t = squared > 0 ? std::clamp(dot(flat - level_from, along) / squared, 0.0, 1.0) : 0;
+    const double bottom =
+        squared > 0 ? piece.from.z + t * (piece.to.z - piece.from.z) : std::min(piece.from.z, piece.to.z);
+    const Point3 level = level_from + t * along;
+    return p.z > bottom ? Point3{level.x, level.y, p.z} : q;
   }
 
   /// Whether all x of the cube are within the tool's radius of a.
   bool reaches(Point3 a, Point3 c, double e, const Level& level, double more) const {
     const double apart = distance(a, c);
-    if (apart + e <= o_.height - o_.off) return true;  // the ball at a is as low, whatever it touches
     double worst = 0;
     for (std::size_t n = 0; n < level.touched.size(); ++n) {
       const Point3 d = a - level.limit[n];
@@ -249,7 +312,7 @@ class CoverTile {
   const CoverProof& p_;
   const std::function<bool(Point3, double)>& interest_;
   const CoverOptions& o_;
-  double contact_, lift_, room_, lowest_ = 0;
+  double contact_, lift_, room_, sure_, lowest_ = 0;
   std::vector<Level> levels_;
   std::vector<Triangle> triangles_;
   std::vector<PathPiece> near_;
@@ -257,9 +320,13 @@ class CoverTile {
   std::vector<Point3>* open_ = nullptr;
 };
 
-CoverProof::CoverProof(const DropCutter& cutter, const CoverOptions& options) : cutter_(cutter), needle_(*cutter.with_radius(std::ldexp(cutter.terrain().extent() + cutter.radius(), -34))), o_(options) {
+CoverProof::CoverProof(const DropCutter& cutter, const CoverOptions& options)
+    : cutter_(cutter),
+      needle_(*cutter.with_radius(std::ldexp(cutter.terrain().extent() + cutter.radius(), -34))),
+      o_(options) {
   const double core = o_.radius - o_.height, contact = o_.radius + o_.allowance;
   reach_ = std::sqrt(o_.radius * o_.radius - core * core);
+  tiny_ = 1e-6 * reach_;
   side_ = std::min(4 * reach_, contact / 2);
   levels_ = std::clamp(int(std::ceil(std::log2(side_ / (2 * smallest * reach_)))), 1, most_levels);
   for (int k = 0; k <= levels_; ++k) {

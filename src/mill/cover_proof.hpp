@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -21,6 +22,7 @@ struct CoverOptions {
   double allowance = 0;  ///< left everywhere on the part
   double height = 0;     ///< greatest height of what may be left above that, less than the radius
   double off = 0;        ///< how far the path may be from the pieces (chords of arcs)
+  bool shank = false;    ///< what is beside and above the ball counts as taken off by its shank, as in passes along a wall's foot
 };
 
 /// Proves that a path leaves nothing higher than wanted above what its tool can reach, or tells where it may.
@@ -34,6 +36,7 @@ struct CoverOptions {
 /// place q and the way c - q differ by no more than e, and q - q0 is orthogonal to the way but for e^2 / 2: projections onto
 /// convex bodies are firmly nonexpansive. This is all the bounds need; nothing is sampled.
 ///
+/// Triangles stand for all below them too, which is convex, so that walls below borders and overhangs count as others.
 /// Vertical walls count where the ball rests on something at their foot. Places are looked at in tiles of the plane.
 class CoverProof {
  public:
@@ -44,10 +47,14 @@ class CoverProof {
   /// The pieces of a cut, chords of its arcs within options.off; coordinates are absolute.
   void add(const Cut& cut);
 
+  /// Side of the smallest cubes.
+  double smallest_side() const { return std::ldexp(side_, -levels_); }
+
   std::size_t tile_count() const { return columns_ * rows_; }
-  /// Looks at tiles; `open` becomes the middles of the smallest cubes, tile by tile, that are not proven, relative to the
-  /// part's origin; `open_tiles` the tiles that have some. `is_of_interest`, which may be empty, tells of a place whether
-  /// anything within a distance of it in x and y is to be looked at; of the smallest cubes the middle counts. False if cancelled.
+  /// Looks at tiles; `open` becomes, tile by tile, places that are not covered, one of a cube of a quarter of the distance
+  /// of passes at most, and the middles of the smallest cubes that are not proven, all relative to the part's origin;
+  /// `open_tiles` the tiles that have some. `is_of_interest`, which may be empty, tells of a place whether anything within
+  /// a distance of it in x and y is to be looked at; of the smallest cubes the middle counts. False if cancelled.
   bool run(const std::vector<std::size_t>& tiles, const std::function<bool(Point3, double)>& is_of_interest,
            const Context& context, std::vector<Point3>& open, std::vector<std::size_t>& open_tiles);
   std::vector<std::size_t> all_tiles() const;
@@ -61,6 +68,7 @@ class CoverProof {
   CoverOptions o_;
   double reach_ = 0;  // half of the distance of passes on a plane
   double side_ = 0;   // of tiles
+  double tiny_ = 0;
   int levels_ = 0;    // of halving
   std::vector<DropCutter> smaller_, larger_;  // by e, for each level
   Point first_;

@@ -12,14 +12,6 @@ double off(Point3 a, Point3 b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b
 
 bool is_closed(const Cut& cut) { return cut.moves.size() > 2 && cut.end() == cut.start; }
 
-void reverse(Cut& cut) {
-  Point3 end = cut.start;
-  cut.start = cut.end();
-  std::reverse(cut.moves.begin(), cut.moves.end());
-  for (std::size_t k = 0; k + 1 < cut.moves.size(); ++k) cut.moves[k].end = cut.moves[k + 1].end;
-  cut.moves.back().end = end;
-}
-
 void start_near(Cut& cut, Point3 at) {
   std::size_t best = cut.moves.size() - 1;
   for (std::size_t k = 0; k < cut.moves.size(); ++k)
@@ -29,6 +21,20 @@ void start_near(Cut& cut, Point3 at) {
 }
 
 }  // namespace
+
+void reverse(Cut& cut) {
+  const Point3 end = cut.start;
+  cut.start = cut.end();
+  std::reverse(cut.moves.begin(), cut.moves.end());
+  for (std::size_t k = 0; k < cut.moves.size(); ++k) {
+    Move& m = cut.moves[k];
+    m.end = k + 1 < cut.moves.size() ? cut.moves[k + 1].end : end;
+    if (m.kind == MoveKind::clockwise)
+      m.kind = MoveKind::counter_clockwise;
+    else if (m.kind == MoveKind::counter_clockwise)
+      m.kind = MoveKind::clockwise;
+  }
+}
 
 void order_cuts(std::vector<Cut>& cuts) {
   if (cuts.empty()) return;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "mill/grown_cutter.hpp"
+
 namespace krepl::mill {
 namespace {
 
@@ -11,9 +13,24 @@ bool is_arc(const Move& m) { return m.kind == MoveKind::clockwise || m.kind == M
 
 }  // namespace
 
+Result<DropCutter> make_prover(const DropCutter& cutter, const Plan& plan, const Band& band, const MillTool& tool) {
+  if (plan.lift == 0) return cutter.with_radius(band.proof_radius);
+  const Result<Cutter> larger = grow(*tool.cutter, tool.allowance, band.proof_room);
+  if (!larger) return larger.error();
+  return cutter.with_cutter(*larger);
+}
+
+double prover_lift(const Plan& plan, const Band& band, const MillTool& tool) {
+  return plan.lift == 0 ? 0 : tool.allowance + band.proof_room;
+}
+
 void append_chords(Point3 from, const Move& arc, double sagitta, std::vector<Point3>& points) {
-  const double ax = from.x - arc.centre.x, ay = from.y - arc.centre.y, bx = arc.end.x - arc.centre.x,
-               by = arc.end.y - arc.centre.y;
+  // The first axis of the plane, the second, and the one across: X Y Z, Z X Y, Y Z X.
+  double Point3::*const axes[] = {&Point3::x, &Point3::y, &Point3::z};
+  const int shift = arc.plane == ArcPlane::xy ? 0 : arc.plane == ArcPlane::zx ? 2 : 1;
+  const auto first = axes[shift], second = axes[(shift + 1) % 3], along = axes[(shift + 2) % 3];
+  const double ax = from.*first - arc.centre.*first, ay = from.*second - arc.centre.*second,
+               bx = arc.end.*first - arc.centre.*first, by = arc.end.*second - arc.centre.*second;
   const double r0 = std::hypot(ax, ay), r1 = std::hypot(bx, by), start = std::atan2(ay, ax);
   double turn = std::atan2(ax * by - ay * bx, ax * bx + ay * by);
   if (arc.kind == MoveKind::counter_clockwise && turn <= 0) turn += 2 * std::numbers::pi;
@@ -24,7 +41,10 @@ void append_chords(Point3 from, const Move& arc, double sagitta, std::vector<Poi
   const double count = std::max(2.0, std::ceil(std::abs(turn) / step));
   for (double n = 1; n < count; ++n) {
     const double s = n / count, angle = start + s * turn, r = r0 + s * (r1 - r0);
-    points.push_back({arc.centre.x + r * std::cos(angle), arc.centre.y + r * std::sin(angle), arc.end.z});
+    Point3 p;
+    p.*first = arc.centre.*first + r * std::cos(angle), p.*second = arc.centre.*second + r * std::sin(angle);
+    p.*along = from.*along + s * (arc.end.*along - from.*along);
+    points.push_back(p);
   }
   points.push_back(arc.end);
 }

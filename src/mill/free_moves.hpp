@@ -9,6 +9,10 @@
 
 namespace krepl::mill {
 
+/// The larger cutter that makes room for arcs as chords, and how much its control point is below that of the tool.
+Result<DropCutter> make_prover(const DropCutter& cutter, const Plan& plan, const Band& band, const MillTool& tool);
+double prover_lift(const Plan& plan, const Band& band, const MillTool& tool);
+
 /// Proves moves free by bounds of the surface's height below them, however they came about. One for each thread.
 class FreeMoves {
  public:
@@ -20,8 +24,10 @@ class FreeMoves {
   /// Returns how many.
   std::size_t settle(Cut& cut, double lift_feed);
 
- private:
+  /// Of a line or an arc, a helix included.
   bool is_free(Point3 from, const Move& move);
+
+ private:
   bool is_free_line(Point3 from, Point3 to);
   double highest(Point3 from, Point3 to, double slope, double floor, double accuracy);
   double round_up(double z) const;
@@ -36,7 +42,7 @@ class FreeMoves {
   std::optional<DriveCurve> curve_;
 };
 
-/// Points of a level arc from `from`, the radius changing evenly, so that it is within `sagitta` of the chords between
+/// Points of an arc or a helix from `from`, the radius changing evenly, so that it is within `sagitta` of the chords between
 /// them.
 void append_chords(Point3 from, const Move& arc, double sagitta, std::vector<Point3>& points);
 

@@ -2,17 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <optional>
 
 #include "kernel/parallel.hpp"
 #include "krepl/drop_cutter.hpp"
+#include "mill/cover_proof.hpp"
 #include "mill/curve_fit.hpp"
+#include "mill/cut_order.hpp"
+#include "mill/interest.hpp"
 #include "mill/lifted_cutter.hpp"
 #include "mill/links.hpp"
+#include "mill/pass_gaps.hpp"
 #include "mill/pass_layout.hpp"
 #include "mill/pass_limits.hpp"
 #include "mill/plan.hpp"
-#include "mill/scallops.hpp"
 
 namespace krepl {
 namespace {
@@ -30,16 +35,10 @@ class PassMoves {
   PassMoves(const mill::PassLayout& layout, const Plan& plan, const ParallelOptions& options)
       : layout_(layout), plan_(plan), o_(options) {}
 
-  Cut cut(const mill::PassLayout::Pass& pass, LatticePoint start, const std::vector<FittedMove>& moves,
-          bool backwards) const {
+  Cut cut(const mill::PassLayout::Pass& pass, LatticePoint start, const std::vector<FittedMove>& moves) const {
     Cut cut;
-    cut.start = point(pass, backwards && !moves.empty() ? moves.back().end : start);
-    for (std::size_t n = 0; n < moves.size(); ++n) {
-      const FittedMove& m = moves[backwards ? moves.size() - 1 - n : n];
-      LatticePoint end = m.end;
-      if (backwards) end = n + 1 < moves.size() ? moves[moves.size() - 2 - n].end : start;
-      cut.moves.push_back(move(pass, m, end, backwards));
-    }
+    cut.start = point(pass, start);
+    for (const FittedMove& m : moves) cut.moves.push_back(move(pass, m));
     return cut;
   }
 
@@ -51,15 +50,15 @@ class PassMoves {
   }
   /// An arc over a top turns clockwise as seen from the right of the way. From +Y one looks at the right side of a way
   /// along -x, from +X at that of a way along y.
-  Move move(const mill::PassLayout::Pass& pass, const FittedMove& m, LatticePoint end, bool backwards) const {
+  Move move(const mill::PassLayout::Pass& pass, const FittedMove& m) const {
     Move move;
-    move.end = point(pass, end);
+    move.end = point(pass, m.end);
     move.feed = o_.motion.feed;
     if (m.kind == FittedMove::Kind::line) return move;
     move.centre = point(pass, m.centre);
     const bool along_x = layout_.q == 0;
     move.plane = along_x ? ArcPlane::zx : ArcPlane::yz;
-    const bool seen_from_right = ((along_x ? layout_.p < 0 : layout_.q > 0)) != backwards;
+    const bool seen_from_right = along_x ? layout_.p < 0 : layout_.q > 0;
     const bool over = m.kind == FittedMove::Kind::over;
     move.kind = over == seen_from_right ? MoveKind::clockwise : MoveKind::counter_clockwise;
     return move;
@@ -76,9 +75,9 @@ struct PassResult {
   std::uint64_t touches = 0;
 };
 
-PassResult make_pass(const mill::LiftedCutter& cutter, const mill::PassLayout& layout, std::size_t k, const Plan& plan,
-                     const mill::PassLimits& limits, const ParallelOptions& o) {
-  const mill::PassLayout::Pass& pass = layout.passes[k];
+PassResult make_pass(const mill::LiftedCutter& cutter, const mill::PassLayout& layout,
+                     const mill::PassLayout::Pass& pass, const Plan& plan, const mill::PassLimits& limits,
+                     const ParallelOptions& o) {
   const std::unique_ptr<mill::LineBodies> bodies = mill::make_bodies(cutter, plan.slack);
   mill::DriveCurve curve(*bodies, {plan.floor, plan.accuracy, o.accuracy.unit / 64, layout.step});
   std::vector<CurveRun> runs;
@@ -93,52 +92,150 @@ PassResult make_pass(const mill::LiftedCutter& cutter, const mill::PassLayout& l
   for (const CurveRun& run : runs) {
     std::vector<FittedMove> moves;
     const LatticePoint start = CurveFit(run, fit).run(moves);
-    result.cuts.push_back(in_space.cut(pass, start, moves, pass.backwards));
+    result.cuts.push_back(in_space.cut(pass, start, moves));
     result.points += run.size();
   }
-  if (pass.backwards) std::reverse(result.cuts.begin(), result.cuts.end());
   return result;
 }
 
-/// Adds passes where the scallop asked for would be exceeded between those laid out.
-bool refine_passes(const DropCutter& cutter, mill::PassLayout& layout, const Plan& plan, const ParallelOptions& o,
-                   MillReport& report, const Context& context) {
-  if (layout.passes.size() < 2) return true;
-  std::vector<mill::ExtraPasses> extra(layout.passes.size() - 1);
-  mill::ScallopOptions scallops;
-  scallops.radius = cutter.radius(), scallops.height = o.scallop - o.accuracy.tolerance,
-  scallops.every = plan.step_over / 2;
-  Context quiet;
-  quiet.threads = context.threads, quiet.cancel = context.cancel;
-  const bool done = kernel::parallel_blocks(quiet, extra.size(), 1, [&](std::size_t k, std::size_t) {
-    const std::unique_ptr<mill::LineBodies> bodies = mill::make_bodies(cutter, 0);
-    const double accuracy = std::max(plan.accuracy, scallops.height / 16);
-    mill::DriveCurve curve(*bodies, {plan.floor, accuracy, o.accuracy.unit / 64, layout.step});
-    extra[k] = mill::find_extra_passes(curve, layout, layout.passes[k], layout.passes[k + 1], scallops);
-  });
-  std::vector<mill::PassLayout::Pass> passes;
-  bool backwards = false;
-  for (std::size_t k = 0; k < layout.passes.size(); ++k) {
-    layout.passes[k].backwards = o.zigzag && backwards;
-    passes.push_back(layout.passes[k]);
-    backwards = !backwards;
-    if (k == extra.size()) break;
-    report.extra_passes += extra[k].passes.size(), report.sections += extra[k].sections,
-        report.uneven_sections += extra[k].remaining;
-    if (extra[k].passes.empty()) continue;
-    // The pieces of a gap on the way back, whatever line they are on.
-    std::stable_sort(extra[k].passes.begin(), extra[k].passes.end(), [backwards](const auto& a, const auto& b) {
-      return backwards ? a.last > b.last : a.first < b.first;
-    });
-    for (mill::PassLayout::Pass& pass : extra[k].passes) {
-      pass.backwards = o.zigzag && backwards;
-      passes.push_back(pass);
-    }
-    backwards = !backwards;
+Error cancelled() { return {ErrorCode::cancelled, "cancelled", "", ""}; }
+
+constexpr int rounds_along = 5, most_rounds = 12;  // of passes between others, then across them
+
+/// The passes of a layout as cuts, and further ones where the scallop is not proven to be kept.
+class ParallelPasses {
+ public:
+  ParallelPasses(const DropCutter& drop, const Plan& plan, const mill::PassLayout& layout, const ParallelOptions& o,
+                 MillReport& report, const Context& context)
+      : drop_(drop),
+        cutter_(drop, plan.lift),
+        plan_(plan),
+        o_(o),
+        layout_(layout),
+        report_(report),
+        context_(context),
+        limits_{mill::Boundary(o.boundary, drop.terrain().origin()), o.shallow * std::numbers::pi / 180,
+                plan.step_over} {
+    quiet_.threads = context.threads, quiet_.cancel = context.cancel;
+    for (const mill::PassLayout::Pass& pass : layout.passes)
+      passes_.push_back({2 * passes_.size() + 1, pass, &layout, {}});
   }
-  layout.passes = std::move(passes);
-  return done;
-}
+
+  const mill::PassLimits& limits() const { return limits_; }
+
+  Result<std::vector<Cut>> run() {
+    if (!make_cuts(0, context_)) return cancelled();
+    if (o_.scallop != 0)
+      if (Status proven = prove(); !proven) return proven.error();
+    return in_order();
+  }
+
+ private:
+  struct Placed {
+    std::size_t gap;  // 2 k + 1 for pass k of the layout, 2 k for those of the gap before it
+    mill::PassLayout::Pass pass;
+    const mill::PassLayout* layout;
+    PassResult result;
+  };
+  bool make_cuts(std::size_t first, const Context& context) {
+    kernel::Progress progress(context, passes_.size() - first);
+    return kernel::parallel_blocks(context, passes_.size() - first, 1, [&](std::size_t k, std::size_t) {
+      Placed& p = passes_[first + k];
+      const bool is_fine = p.layout != &layout_;
+      p.result = make_pass(cutter_, *p.layout, p.pass, is_fine ? *fine_plan_ : plan_, limits_, is_fine ? fine_ : o_);
+      progress.add(1);
+    });
+  }
+
+  /// At the bottom of a sharp valley a path is much higher above the ball's lowest place than it is away from the
+  /// sides: passes that go there are more exact.
+  Status make_fine_plan() {
+    fine_ = o_;
+    fine_.accuracy.tolerance = std::max(16 * o_.accuracy.unit + 2 * o_.accuracy.arc_error, o_.accuracy.tolerance / 8);
+    Result<Plan> plan = mill::make_plan(drop_.terrain(), fine_, mill::Cutters::all);
+    if (!plan) return plan.error();
+    fine_plan_ = *plan;
+    fine_plan_->band -= layout_.step;
+    return std::monostate{};
+  }
+
+  Status prove() {
+    if (Status made = make_fine_plan(); !made) return made;
+    // What a ball enters that is a few units larger: a path keeps some away.
+    const double room = 4 * o_.accuracy.unit;
+    const Result<DropCutter> contact = drop_.with_radius(o_.tool.radius + o_.tool.allowance + room);
+    if (!contact) return contact.error();
+    mill::CoverProof proof(*contact,
+                           {o_.tool.radius, o_.tool.allowance + room, o_.scallop - room, o_.scallop / 64, true});
+    gaps_.emplace(layout_, plan_.step_over / 2, 2 * proof.smallest_side());
+    const mill::Interest interest(*contact, limits_, plan_.step_over / 4);
+    // Over its lowest places the ball rests a bit lower than the path.
+    const double floor = plan_.floor - o_.accuracy.tolerance;
+    const auto is_of_interest = [&interest, floor](Point3 p, double within) {
+      return p.z + within > floor && (interest.is_everywhere() || interest.has({p.x, p.y}, within));
+    };
+    std::vector<std::size_t> tiles = proof.all_tiles(), open_tiles;
+    std::vector<Point3> open;
+    std::size_t proven = 0;
+    for (int round = 1;; ++round) {
+      for (; proven < passes_.size(); ++proven)
+        for (const Cut& cut : passes_[proven].result.cuts) proof.add(cut);
+      if (!proof.run(tiles, is_of_interest, quiet_, open, open_tiles)) return cancelled();
+      if (open.empty() || round > most_rounds) break;
+      const std::vector<mill::PassGaps::Extra> extra =
+          round <= rounds_along ? gaps_->serve(open, *contact) : gaps_->serve_across(open);
+      for (const mill::PassGaps::Extra& e : extra)
+        passes_.push_back({2 * e.gap, e.pass, e.is_across ? &gaps_->across() : &layout_, {}});
+      if (!make_cuts(proven, quiet_)) return cancelled();
+      tiles = open_tiles;
+    }
+    report_.open_places = open.size();
+    report_.extra_passes = passes_.size() - layout_.passes.size();
+    return std::monostate{};
+  }
+
+  /// Pass by pass, and the pieces of each gap on the way back, whatever line they are on.
+  std::vector<Cut> in_order() {
+    std::stable_sort(passes_.begin(), passes_.end(), [](const Placed& a, const Placed& b) { return a.gap < b.gap; });
+    std::vector<Cut> cuts;
+    bool backwards = false;
+    for (std::size_t k = 0; k < passes_.size();) {
+      std::size_t end = k + 1;
+      while (end < passes_.size() && passes_[end].gap == passes_[k].gap) ++end;
+      const auto first = passes_.begin() + std::ptrdiff_t(k), last = passes_.begin() + std::ptrdiff_t(end);
+      std::stable_sort(first, last, [backwards](const Placed& a, const Placed& b) {
+        return backwards ? a.pass.last > b.pass.last : a.pass.first < b.pass.first;
+      });
+      for (; k < end; ++k) append(passes_[k], backwards, cuts);
+      backwards = o_.zigzag && !backwards;
+    }
+    return cuts;
+  }
+
+  void append(Placed& placed, bool backwards, std::vector<Cut>& cuts) {
+    report_.curve_points += placed.result.points, report_.touches += placed.result.touches;
+    std::vector<Cut>& made = placed.result.cuts;
+    if (backwards) {
+      std::reverse(made.begin(), made.end());
+      for (Cut& cut : made) mill::reverse(cut);
+    }
+    for (Cut& cut : made) cuts.push_back(std::move(cut));
+  }
+
+  const DropCutter& drop_;
+  mill::LiftedCutter cutter_;
+  const Plan& plan_;
+  const ParallelOptions& o_;
+  ParallelOptions fine_;
+  std::optional<Plan> fine_plan_;
+  const mill::PassLayout& layout_;
+  MillReport& report_;
+  const Context& context_;
+  Context quiet_;
+  mill::PassLimits limits_;
+  std::optional<mill::PassGaps> gaps_;
+  std::vector<Placed> passes_;
+};
 
 }  // namespace
 
@@ -149,37 +246,23 @@ Result<MilledPath> mill_parallel(std::shared_ptr<const Terrain> part, const Para
   Plan& plan = *made;
   const Result<DropCutter> drop = DropCutter::build(part, plan.cutter, context);
   if (!drop) return drop.error();
-  const mill::LiftedCutter cutter(*drop, plan.lift);
-  mill::PassLayout layout =
+  const mill::PassLayout layout =
       mill::lay_passes(*part, o.accuracy.unit, o.angle, plan.step_over, plan.radius, o.accuracy.tolerance);
   plan.band -= layout.step;
-  for (std::size_t k = 1; k < layout.passes.size(); k += 2) layout.passes[k].backwards = o.zigzag;
   MilledPath milled;
-  if (o.scallop != 0 && !refine_passes(*drop, layout, plan, o, milled.report, context))
-    return Error{ErrorCode::cancelled, "cancelled", "", ""};
-  const mill::PassLimits limits{mill::Boundary(o.boundary, part->origin()), o.shallow * std::numbers::pi / 180,
-                                plan.step_over};
-  std::vector<PassResult> results(layout.passes.size());
-  kernel::Progress progress(context, results.size());
-  const bool done = kernel::parallel_blocks(context, results.size(), 1, [&](std::size_t k, std::size_t) {
-    results[k] = make_pass(cutter, layout, k, plan, limits, o);
-    progress.add(1);
-  });
-  if (!done) return Error{ErrorCode::cancelled, "cancelled", "", ""};
-  std::vector<Cut> cuts;
-  for (PassResult& r : results) {
-    milled.report.curve_points += r.points, milled.report.touches += r.touches;
-    for (Cut& c : r.cuts) cuts.push_back(std::move(c));
-  }
-  if (cuts.empty())
-    return Error{ErrorCode::input, "there is no pass over the part", "",
-                 o.boundary.polygons.empty() ? "use a smaller step-over" : "use a smaller step-over or a larger boundary"};
-  milled.report.passes = results.size(), milled.report.cuts = cuts.size();
+  ParallelPasses passes(*drop, plan, layout, o, milled.report, context);
+  Result<std::vector<Cut>> cuts = passes.run();
+  if (!cuts) return cuts.error();
+  if (cuts->empty())
+    return Error{
+        ErrorCode::input, "there is no pass over the part", "",
+        o.boundary.polygons.empty() ? "use a smaller step-over" : "use a smaller step-over or a larger boundary"};
+  milled.report.passes = layout.passes.size() + milled.report.extra_passes, milled.report.cuts = cuts->size();
   milled.report.step_over = layout.step_over, milled.report.angle = layout.angle();
   const double short_link = o.zigzag ? 1.5 * plan.step_over : 0;
   mill::LinkOptions links = mill::links_of(plan, o.tool, o.accuracy, o.motion, o.motion.feed, short_link);
-  links.boundary = &limits.boundary;
-  return mill::finish_path(cutter, std::move(cuts), links, o.motion, std::move(milled), context);
+  links.boundary = &passes.limits().boundary;
+  return mill::finish_path({*drop, plan.lift}, std::move(*cuts), links, o.motion, std::move(milled), context);
 }
 
 }  // namespace krepl

@@ -17,8 +17,8 @@ constexpr int deepest = 12;
 
 }  // namespace
 
-/// What a ball over p touches bounds the distance of p. A ball a bit smaller than that either rests at p or below: then nothing is
-/// nearer; or it rests higher, on something that is nearer.
+/// What a ball over p touches bounds the distance of p. A ball a bit smaller than that either rests at p or below: then
+/// nothing is nearer; or it rests higher, on something that is nearer.
 OnSurface::Nearest OnSurface::nearest(Point3 p) const {
   constexpr double a_bit = 1e-9;
   double radius = cutter_.radius();
@@ -58,28 +58,37 @@ Point3 OnSurface::put(Point3 p) const {
   return contact.touches() ? Point3{p.x, p.y, contact.height} : p;
 }
 
-void OnSurface::append(Point3 a, Point3 b, int depth, SpaceLine& line) const {
+void OnSurface::append(Point3 a, Point3 b, int depth, std::vector<SpaceLine>& lines) const {
   const double far = distance(a, b);
-  if (far > shortest_ && depth < deepest) {
+  if (far > shortest_) {
     const Point3 middle = 0.5 * (a + b), c = put(middle);
-    if (distance(c, middle) > flatten_ && std::max(distance(a, c), distance(c, b)) < far) {
-      append(a, c, depth + 1, line);
-      append(c, b, depth + 1, line);
+    // Of long pieces also a quarter from both ends.
+    const auto is_off = [&](Point3 p) { return distance(put(p), p) > flatten_; };
+    if (distance(c, middle) > flatten_ ||
+        (far > 4 * shortest_ && (is_off(0.75 * a + 0.25 * b) || is_off(0.25 * a + 0.75 * b)))) {
+      if (depth < deepest && std::max(distance(a, c), distance(c, b)) < far) {
+        append(a, c, depth + 1, lines);
+        append(c, b, depth + 1, lines);
+      } else {
+        lines.push_back({b});
+      }
       return;
     }
   }
-  line.push_back(b);
+  lines.back().push_back(b);
 }
 
-SpaceLine OnSurface::put(const SpaceLine& line) const {
-  SpaceLine out{put(line.front())};
+std::vector<SpaceLine> OnSurface::put(const SpaceLine& line) const {
+  std::vector<SpaceLine> out{{put(line.front())}};
   const bool is_closed = line.size() > 2 && line.front() == line.back();
+  const Point3 first = out.front().front();
   for (std::size_t k = 1; k < line.size(); ++k) {
     const bool is_last = k + 1 == line.size();
-    const Point3 p = is_last && is_closed ? out.front() : put(line[k]);
-    if (!is_last && distance(p, out.back()) < shortest_ / 2) continue;
-    append(out.back(), p, 0, out);
+    const Point3 p = is_last && is_closed ? first : put(line[k]), before = out.back().back();
+    if (!is_last && distance(p, before) < shortest_ / 2) continue;
+    append(before, p, 0, out);
   }
+  std::erase_if(out, [](const SpaceLine& l) { return l.size() < 2; });
   return out;
 }
 

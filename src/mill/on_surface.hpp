@@ -20,8 +20,8 @@ class OnSurface {
   /// The nearest point of the surface if p is free, else one near p.
   Point3 put(Point3 p) const;
   /// Puts points onto the surface, and points between them where chords are farther from it. Points nearer than half of
-  /// `shortest` to the one before are left out.
-  SpaceLine put(const SpaceLine& line) const;
+  /// `shortest` to the one before are left out. Several lines where no points between are on the way, as past a rim.
+  std::vector<SpaceLine> put(const SpaceLine& line) const;
 
  private:
   struct Nearest {
@@ -30,7 +30,7 @@ class OnSurface {
     bool found;
   };
   Nearest nearest(Point3 p) const;
-  void append(Point3 a, Point3 b, int depth, SpaceLine& line) const;
+  void append(Point3 a, Point3 b, int depth, std::vector<SpaceLine>& lines) const;
 
   const DropCutter& cutter_;
   double flatten_, shortest_;

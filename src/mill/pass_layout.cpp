@@ -68,7 +68,7 @@ PassLayout lay_passes(const Terrain& part, double unit, double degrees, double s
     const std::int64_t n = std::llround(at / layout.step);
     if (k > 0) layout.step_over = std::max(layout.step_over, double(n - before) * layout.step);
     before = n;
-    layout.passes.push_back({ci - n * layout.q, cj + n * layout.p, -last, last, false});
+    layout.passes.push_back({ci - n * layout.q, cj + n * layout.p, -last, last});
   }
   return layout;
 }

@@ -29,7 +29,6 @@ struct PassLayout {
   struct Pass {
     std::int64_t i0, j0;       ///< where t is zero
     std::int64_t first, last;  ///< of its places
-    bool backwards = false;    ///< the way it is run
   };
   std::vector<Pass> passes;
 

@@ -18,8 +18,8 @@ struct RestOf {
 /// the grid reaches: 1 there, else 0.
 ///
 /// x, at the threshold above a touched place, is taken off if it is within R of a place where the larger ball is free. Such a place
-/// is looked for by going to and fro between the ball of that radius about x and the larger ball's surface; where none is found,
-/// the place counts as rest. False if cancelled.
+/// is looked for over a raster, where a somewhat smaller ball tells that there is none; between both by going to and fro between the ball
+/// of that radius about x and the larger ball's surface; where none is found, the place counts as rest. False if cancelled.
 bool find_rest(const SurfaceGrid& grid, const DropCutter& cutter, const RestOf& options, const Context& context,
                std::vector<char>& rest);
 

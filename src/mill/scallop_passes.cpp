@@ -1,8 +1,10 @@
 #include "mill/scallop_passes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "kernel/parallel.hpp"
@@ -30,7 +32,7 @@ using Index = SurfaceGrid::Index;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_places = 0x1p24;
 constexpr double part_of_reach = 0.9;  // half the distance of passes, of what a plane allows
-constexpr int halvings = 6;
+constexpr int halvings = 6, touches = 4;  // rounds of lines between others, then of short ones
 
 Error cancelled() { return {ErrorCode::cancelled, "cancelled", "", ""}; }
 
@@ -38,7 +40,7 @@ class ScallopPasses {
  public:
   ScallopPasses(const DropCutter& cutter, const Plan& plan, const Band& band, const ScallopJob& job, MillReport& report,
                 const Context& context)
-      : plan_(plan), band_(band), job_(job), report_(report), contact_(cutter), curve_(cutter), prover_(cutter) {
+      : plan_(plan), band_(band), job_(job), report_(report), contact_(cutter), curve_(cutter) {
     quiet_.threads = context.threads, quiet_.cancel = context.cancel;
     // On a plane, with passes as high as the tolerance allows.
     const double r = job.tool.radius, core = r - job.scallop + job.accuracy.tolerance;
@@ -55,14 +57,35 @@ class ScallopPasses {
     if (Status laid = lay_field(valleys.chains, border_of(*surface)); !laid) return laid;
     std::vector<SpaceLine> lines = in_cells(valleys.chains);
     for (SpaceLine& line : lines_at(2 * half_, 2 * half_, cells_)) lines.push_back(std::move(line));
-    if (!add(lines, cuts)) return cancelled();
+    if (!add(lines, *usual_, cuts)) return cancelled();
     report_.passes = cuts.size();
     if (cuts.empty()) return std::monostate{};
     return prove(cuts);
   }
 
  private:
+  /// How exactly lines are followed.
+  struct Following {
+    Band band;
+    DropCutter curve, prover;
+  };
+
+  Status make_following(double tolerance, std::optional<Following>& made) const {
+    MillAccuracy accuracy = job_.accuracy;
+    accuracy.tolerance = tolerance;
+    const Band band = make_band(plan_, accuracy);
+    const Result<DropCutter> curve = contact_.with_radius(band.curve_radius), prover = contact_.with_radius(band.proof_radius);
+    if (!curve) return curve.error();
+    if (!prover) return prover.error();
+    made.emplace(Following{band, *curve, *prover});
+    return std::monostate{};
+  }
+
   Status make_tools() {
+    const double least = 16 * job_.accuracy.unit + 2 * job_.accuracy.arc_error, tolerance = job_.accuracy.tolerance;
+    if (Status s = make_following(tolerance, usual_); !s) return s;
+    // At the bottom of a sharp valley a path is much higher above the ball's lowest place than it is away from the sides.
+    if (Status s = make_following(std::max(least, tolerance / 8), fine_); !s) return s;
     const auto make = [&](DropCutter& cutter, double radius) -> Status {
       Result<DropCutter> made = contact_.with_radius(radius);
       if (!made) return made.error();
@@ -73,8 +96,7 @@ class ScallopPasses {
     if (Status s = make(foot, band_.curve_radius - job_.accuracy.unit / 2); !s) return s;
     foot_.emplace(foot);
     if (Status s = make(curve_, band_.curve_radius); !s) return s;
-    if (Status s = make(prover_, band_.proof_radius); !s) return s;
-    return make(contact_, job_.tool.radius + job_.tool.allowance);
+    return make(contact_, job_.tool.radius + job_.tool.allowance + 4 * job_.accuracy.unit);
   }
 
   /// The raster, and distances from valleys and the border, which counts as half-way between passes.
@@ -155,36 +177,56 @@ class ScallopPasses {
     return grid_lines(grid_, field_, {first, step, cells.empty() ? nullptr : &cells});
   }
 
+  /// Short lines through places, one for all that are near each other: where the lines between others do not get.
+  std::vector<SpaceLine> short_lines(const std::vector<Point3>& places) const {
+    const double size = half_ / 4, least = 4 * job_.accuracy.unit;
+    std::map<std::array<std::int64_t, 3>, SpaceLine> lines;
+    for (const Point3 p : places) {
+      SpaceLine& line = lines[{std::int64_t(std::floor(p.x / size)), std::int64_t(std::floor(p.y / size)),
+                               std::int64_t(std::floor(p.z / size))}];
+      if (line.empty())
+        line = {p, p};
+      else if (distance(line.front(), p) > distance(line.front(), line.back()))
+        line.back() = p;
+    }
+    std::vector<SpaceLine> found;
+    for (auto& [key, line] : lines) {
+      if (distance(line.front(), line.back()) < least) line.back().z += least;
+      found.push_back(std::move(line));
+    }
+    return found;
+  }
+
   /// Cuts along lines, put onto the surface.
-  bool add(const std::vector<SpaceLine>& lines, std::vector<Cut>& cuts) {
+  bool add(const std::vector<SpaceLine>& lines, const Following& f, std::vector<Cut>& cuts) {
     const double unit = job_.accuracy.unit;
     const Point3 origin = curve_.terrain().origin();
     const SpaceLattice lattice{unit, {-origin.x, -origin.y, plan_.z0}};
-    std::vector<Cut> made(lines.size());
+    std::vector<std::vector<Cut>> made(lines.size());
     std::vector<std::size_t> lifted(lines.size()), points(lines.size());
     const bool done = kernel::parallel_blocks(quiet_, lines.size(), 4, [&](std::size_t first, std::size_t last) {
-      const OnSurface surface(curve_, band_.within / 8, 8 * unit);
-      FreeMoves free(prover_, band_, plan_, unit);
-      for (std::size_t k = first; k < last; ++k) {
-        const SpaceLine line = surface.put(lines[k]);
-        points[k] = line.size();
-        if (line.size() < 2) continue;
-        made[k] = lines_cut(line, lattice);
-        lifted[k] = free.settle(made[k], job_.motion.plunge_feed);
-      }
+      const OnSurface surface(f.curve, f.band.within / 8, 8 * unit);
+      FreeMoves free(f.prover, f.band, plan_, unit);
+      for (std::size_t k = first; k < last; ++k)
+        for (const SpaceLine& line : surface.put(lines[k])) {
+          points[k] += line.size();
+          Cut cut = lines_cut(line, lattice, f.band.within);
+          lifted[k] += free.settle(cut, job_.motion.plunge_feed);
+          if (!cut.moves.empty()) made[k].push_back(std::move(cut));
+        }
     });
     for (std::size_t k = 0; k < lines.size(); ++k) {
       report_.lifted_moves += lifted[k], report_.curve_points += points[k];
-      if (!made[k].moves.empty()) cuts.push_back(std::move(made[k]));
+      for (Cut& cut : made[k]) cuts.push_back(std::move(cut));
     }
     return done;
   }
 
-  Cut lines_cut(const SpaceLine& line, const SpaceLattice& lattice) const {
+  Cut lines_cut(const SpaceLine& line, const SpaceLattice& lattice, double within) const {
     Cut cut;
     bool first = true;
     // A quarter is for the polyline.
-    for (const SpaceLattice::Place& p : fit_lines(line, lattice, band_.within * 3 / 4)) {
+    for (const SpaceLattice::Place& p : fit_lines(line, lattice, within * 3 / 4)) {
       const Point3 at{double(p[0]) * lattice.unit, double(p[1]) * lattice.unit, double(p[2]) * lattice.unit + plan_.tip};
       if (first)
         cut.start = at;
@@ -197,7 +239,9 @@ class ScallopPasses {
 
   /// Proves that the cuts keep the scallop; adds lines half-way between others near places where that fails, and so on.
   Status prove(std::vector<Cut>& cuts) {
-    CoverProof proof(contact_, {job_.tool.radius, job_.tool.allowance, job_.scallop, 0});
+    // What a ball enters that is a few units larger: a path keeps some away.
+    const double room = 4 * job_.accuracy.unit;
+    CoverProof proof(contact_, {job_.tool.radius, job_.tool.allowance + room, job_.scallop - room, 0, true});
     std::function<bool(Point3, double)> is_of_interest;
     if (!cells_.empty())
       is_of_interest = [this](Point3 p, double far) {
@@ -215,12 +259,16 @@ class ScallopPasses {
     for (int n = 1;; ++n) {
       for (; proven < cuts.size(); ++proven) proof.add(cuts[proven]);
       if (!proof.run(tiles, is_of_interest, quiet_, open, open_tiles)) return cancelled();
-      if (open.empty() || n > halvings) break;
-      std::vector<char> near(grid_.size(), 0);
-      for (const Point3 p : open) mark({p.x, p.y}, half_, near);
-      for (std::size_t v = 0; v < cells_.size(); ++v) near[v] &= cells_[v];
-      const double step = 2 * half_ / std::ldexp(1.0, n - 1);
-      if (!add(lines_at(step / 2, step, near), cuts)) return cancelled();
+      if (open.empty() || n > halvings + touches) break;
+      if (n > halvings) {
+        if (!add(short_lines(open), *fine_, cuts)) return cancelled();
+      } else {
+        std::vector<char> near(grid_.size(), 0);
+        for (const Point3 p : open) mark({p.x, p.y}, half_, near);
+        for (std::size_t v = 0; v < cells_.size(); ++v) near[v] &= cells_[v];
+        const double step = 2 * half_ / std::ldexp(1.0, n - 1);
+        if (!add(lines_at(step / 2, step, near), *usual_, cuts)) return cancelled();
+      }
       tiles = open_tiles;
     }
     report_.open_places = open.size();
@@ -233,8 +281,9 @@ class ScallopPasses {
   const ScallopJob& job_;
   MillReport& report_;
   Context quiet_;
-  DropCutter contact_, curve_, prover_;  // with what scallops are told, of curves, of proofs
+  DropCutter contact_, curve_;  // with what scallops are told; of curves
   std::optional<DropCutter> foot_;
+  std::optional<Following> usual_, fine_;
   double half_;
   SurfaceGrid grid_;
   std::vector<double> field_;

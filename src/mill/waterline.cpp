@@ -225,22 +225,15 @@ Result<std::unique_ptr<LevelSource>> make_source(const std::shared_ptr<const Ter
       std::make_unique<TracedLevels>(std::move(*drop), o.tool.allowance + band.curve_room, along));
 }
 
-Result<DropCutter> make_prover(const DropCutter& cutter, const Plan& plan, const Band& band, const MillTool& tool) {
-  if (plan.lift == 0) return cutter.with_radius(band.proof_radius);
-  const Result<Cutter> larger = mill::grow(*tool.cutter, tool.allowance, band.proof_room);
-  if (!larger) return larger.error();
-  return cutter.with_cutter(*larger);
-}
-
 Result<std::vector<Cut>> cut_levels(const std::shared_ptr<const Terrain>& part, const DropCutter& cutter,
                                     std::span<const std::int64_t> heights, const Plan& plan, const Band& band,
                                     const mill::Boundary& boundary, const WaterlineOptions& o, MillReport& report,
                                     const Context& context) {
-  const Result<DropCutter> prover = make_prover(cutter, plan, band, o.tool);
+  const Result<DropCutter> prover = mill::make_prover(cutter, plan, band, o.tool);
   if (!prover) return prover.error();
   const auto source = make_source(part, cutter, plan, band, o, context);
   if (!source) return source.error();
-  const mill::LiftedCutter lifted(*prover, plan.lift == 0 ? 0 : o.tool.allowance + band.proof_room);
+  const mill::LiftedCutter lifted(*prover, mill::prover_lift(plan, band, o.tool));
   WaterlineCuts waterlines(lifted, **source, band, plan, boundary, o, report);
   Context quiet;
   quiet.threads = context.threads, quiet.cancel = context.cancel;

@@ -150,6 +150,30 @@ class Mill(support.CliTest):
         for z in levels:
             self.assertGreaterEqual(z, 0.3)
 
+    def test_rough_patterns_and_cutters(self):
+        rough = ("--strategy", "rough", "--step-over", "1", "--step-down", "1")
+        programs = []
+        for tool in ("ball:3", "flat:3", "bull:3:0.5"):
+            for pattern in ((), ("--pattern", "zigzag", "--angle", "90")):
+                done = self.succeed("mill", "part.off", "out.ngc", "--tool", tool, *rough, *pattern, "--verbose")
+                if pattern:
+                    self.assertIn("0 moves left out", done.stdout + done.stderr)
+                programs.append(self.text("out.ngc"))
+                self.succeed("verify", "out.ngc", "--against", "part.off", "--tool", tool)
+                self.succeed("simulate", "out.ngc", "--against", "part.off", "--tool", tool, "--cell", "0.2")  # rapid moves do not cut
+        self.assertEqual(len(set(programs)), 6)
+        self.assertEqual([bool(re.search(r"^G[23] ", p, re.MULTILINE)) for p in programs], [True, False] * 3)
+        mill = ("mill", "part.off", "none.ngc", "--tool", "ball:3")
+        self.fail_with(2, "--pattern has no meaning for strategy parallel; it belongs to rough", *mill, "--step-over", "1", "--pattern", "offsets",
+                       output="none.ngc")
+        self.fail_with(2, "--angle has no meaning for strategy rough; it belongs to parallel, rough with --pattern zigzag", *mill, *rough, "--angle", "5",
+                       output="none.ngc")
+        self.fail_with(2, "--pattern 'spiral' is unknown; give one of offsets, zigzag", *mill, *rough, "--pattern", "spiral", output="none.ngc")
+
+    def test_scallops_of_parallel_passes_are_proven(self):
+        done = self.succeed("mill", "part.off", "out.ngc", "--tool", "ball:3", "--scallop", "0.05", "--verbose")
+        self.assertIn("0 places where the scallop is not proven", done.stdout + done.stderr)
+
     def test_waterlines(self):
         options = ("--tool", "ball:3", "--strategy", "waterline", "--step-down", "0.5")
         done = self.succeed("mill", "part.off", "out.ngc", *options, "--verbose")
@@ -194,8 +218,8 @@ class Mill(support.CliTest):
                        "--control-point", "centre", output="none")
 
     def test_cutters_that_a_strategy_cannot_take(self):
-        for strategy in (("--strategy", "rough", "--step-over", "1", "--step-down", "1"), ("--strategy", "pencil")):
-            self.fail_with(2, "paths of tool 'flat:3' are made by strategies parallel and waterline only; use one of them, or --tool "
+        for strategy in (("--strategy", "scallop", "--scallop", "0.1"), ("--strategy", "pencil")):
+            self.fail_with(2, "paths of tool 'flat:3' are made by strategies parallel, waterline and rough only; use one of them, or --tool "
                               "ball:DIAMETER",
                            "mill", "part.off", "out.ngc", "--tool", "flat:3", *strategy, output="out.ngc")
         self.fail_with(2, "heights of scallops are known of ball-nose cutters only, not of tool 'flat:3'; give the step-over",

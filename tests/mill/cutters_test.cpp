@@ -216,15 +216,15 @@ TEST(Cutters, ThatAStrategyCannotTakeAreErrors) {
   ASSERT_TRUE(made);
   const auto part = std::make_shared<const Terrain>(*made);
   const Cutter flat = *Cutter::flat(1);
-  RoughOptions rough;
-  rough.tool.cutter = flat, rough.step_over = 0.2, rough.step_down = 0.3;
+  ScallopOptions constant;
+  constant.tool.cutter = flat, constant.scallop = 0.1;
   PencilOptions pencil;
   pencil.tool.cutter = flat;
   ParallelOptions scallop = options_for(flat);
   scallop.step_over = 0, scallop.scallop = 0.1;
   ParallelOptions centre = options_for(flat);
   centre.accuracy.control_point = ControlPoint::centre;
-  for (const auto& milled : {mill_rough(part, rough), mill_pencil(part, pencil), mill_parallel(part, scallop),
+  for (const auto& milled : {mill_scallop(part, constant), mill_pencil(part, pencil), mill_parallel(part, scallop),
                              mill_parallel(part, centre)}) {
     ASSERT_FALSE(milled);
     EXPECT_EQ(milled.error().code, ErrorCode::usage);

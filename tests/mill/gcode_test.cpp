@@ -172,6 +172,17 @@ TEST_F(Programs, AreWhatTheInterpreterDoes) {
   output::GcodeOptions gcode;
   gcode.below_centre = 1.5;
   expect_read(roughed->path, gcode);
+  // A pocket, entered down a helix.
+  const auto pocket = Terrain::from_grid({5, 5, {0, 0}, 4, 4, Terrain::Split::rising},
+                                         {3, 3, 3, 3, 3, 3, 0, 0, 0, 3, 3, 0, 0, 0, 3, 3, 0, 0, 0, 3, 3, 3, 3, 3, 3});
+  ASSERT_TRUE(pocket);
+  const auto entered = mill_rough(std::make_shared<const Terrain>(*pocket), rough);
+  ASSERT_TRUE(entered) << entered.error().text();
+  std::size_t helices = 0;
+  Point3 before = entered->path.start;
+  for (const Move& m : entered->path.moves) helices += m.kind == MoveKind::counter_clockwise && m.end.z < before.z, before = m.end;
+  EXPECT_GT(helices, 5u);
+  expect_read(entered->path, gcode);
   WaterlineOptions around;
   around.tool.radius = 1.5, around.step_down = 0.4;
   for (const bool chords : {false, true}) {

@@ -40,7 +40,7 @@ inline void walk(const ToolPath& path, double step, int least, const std::functi
       for (int i = 0; i <= n; ++i) {
         const double s = double(i) / n, r = r0 + s * (r1 - r0), angle = from + s * turn;
         const double a = first(m.centre) + r * std::cos(angle), b = second(m.centre) + r * std::sin(angle);
-        Point3 p = at;
+        Point3 p{at.x + s * (m.end.x - at.x), at.y + s * (m.end.y - at.y), at.z + s * (m.end.z - at.z)};  // helices: evenly along the axis
         if (m.plane == ArcPlane::xy)
           p.x = a, p.y = b;
         else if (m.plane == ArcPlane::zx)

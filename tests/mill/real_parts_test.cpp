@@ -5,6 +5,7 @@
 
 #include "input/terrain_reader.hpp"
 #include "mill/cutter_check.hpp"
+#include "mill/left_check.hpp"
 #include "support/environment.hpp"
 
 namespace krepl::test {
@@ -109,6 +110,55 @@ TEST_P(RealParts, AreNotCutIntoByWaterlines) {
   EXPECT_EQ(milled->report.lifted_moves, 0u);
   EXPECT_LE(check.deepest, 1e-9 * extent) << "at " << check.deepest_at.x << " " << check.deepest_at.y;
   EXPECT_LE(check.highest, 1e-9 * extent) << "at " << check.highest_at.x << " " << check.highest_at.y << " " << check.highest_at.z;
+}
+
+/// Scallops of parallel, scallop and rest passes on small parts, by a simulation; roughing of them.
+TEST(RealScallops, AreKept) {
+  const auto data = data_directory();
+  if (!data) GTEST_SKIP() << "no real data: set KREPL_DATA";
+  struct Case {
+    const char* file;
+    double radius, scallop;
+  };
+  // The slots of the second are as wide as a ball of radius 2: a path keeps out of them.
+  for (const Case& c : {Case{"mesh/demo.off", 0.5, 0.05}, Case{"mesh/failedinpycam.off", 1.95, 0.3}}) {
+    if (!std::filesystem::exists(*data / c.file)) continue;
+    input::TerrainRequest request;
+    request.path = (*data / c.file).string();
+    const auto file = input::read_terrain(request);
+    ASSERT_TRUE(file) << file.error().text();
+    const auto& part = file->terrain;
+    const MillTool tool{c.radius, 0, {}};
+    MillAccuracy accuracy;
+    accuracy.unit = 1e-5, accuracy.tolerance = c.scallop / 8;
+    ParallelOptions along;
+    along.tool = tool, along.accuracy = accuracy, along.scallop = c.scallop;
+    along.bottom = part->lowest().z + part->origin().z - 1.2 * c.radius;  // beside the part as well
+    const auto passes = mill_parallel(part, along), scallop = mill_scallop(part, {tool, accuracy, {}, c.scallop, 20});
+    ASSERT_TRUE(passes && scallop) << c.file;
+    const double cell = c.radius / 8;
+    for (const auto* milled : {&*passes, &*scallop}) {
+      EXPECT_EQ(milled->report.open_places, 0u) << c.file;
+      const LeftCheck check = check_left(part, milled->path, c.radius, c.scallop, cell);
+      EXPECT_GT(check.dexels, 10000u);
+      EXPECT_LE(check.worst, 1e-9 * part->extent()) << c.file << ": " << check.over << " at " << check.at.x << " " << check.at.y;
+    }
+    EXPECT_GT(check_left(part, passes->path, c.radius, 0.3 * c.scallop, cell).over, 100u) << "the witness sees less";
+    RoughOptions rough;
+    rough.tool = tool, rough.accuracy = accuracy, rough.step_over = 0.8 * c.radius, rough.step_down = c.radius;
+    const auto roughed = mill_rough(part, rough);
+    ASSERT_TRUE(roughed) << roughed.error().text();
+    EXPECT_EQ(roughed->report.lifted_moves, 0u);
+    const RestOptions rest{tool, accuracy, {}, c.scallop, 20, 2 * c.radius, -1};
+    const auto rested = mill_rest(part, rest);
+    ASSERT_TRUE(rested) << rested.error().text();
+    EXPECT_EQ(rested->report.open_places, 0u);
+    for (const auto* milled : {&*passes, &*scallop, &*roughed, &*rested}) {
+      const PathCheck check = check_path(*part, part, milled->path, c.radius, c.radius + accuracy.tolerance, -1e300, c.radius / 20, 10,
+                                         [](const Move&) { return false; });
+      EXPECT_LE(check.deepest, 1e-9 * part->extent()) << c.file << " at " << check.deepest_at.x << " " << check.deepest_at.y;
+    }
+  }
 }
 
 TEST(RealCutters, DoNotCutIntoAPart) {

@@ -177,6 +177,52 @@ class PathPageTest(BrowserCase):
         self.assertGreater(r, g + 60)
         self.assertGreater(r, b + 60)
 
+    def mill(self, name, part, tool, *options):
+        """Path of a program of krepl mill and of its page."""
+        path, page = PAGES.path(name + ".ngc"), PAGES.path(name + ".html")
+        PAGES.run("mill", part, path, "--tool", tool, *options)
+        said = PAGES.run("view", path, "-o", page, "--input", part, "--tool", tool, "--cell", 0.4)
+        self.assertRegex(said, r"gouge 0, ", "nothing is cut into")
+        return path, page
+
+    def test_roughing_goes_down_helices(self):
+        pocket = PAGES.grid("pocket", 21, 21, lambda x, y: 0 if max(abs(x - 10), abs(y - 10)) < 6 else 3, AT)
+        path, page = self.mill("rough", pocket, "ball:3", "--strategy", "rough", "--step-over", 1, "--step-down", 1.5, "--ramp-angle", 5)
+        with open(path, encoding="ascii") as text:
+            lines = text.read().splitlines()
+        number = next(k for k, line in enumerate(lines, 1) if line.startswith("G3") and "Z" in line)
+        self.open("time=0", page)
+        # Where the tool is at times during that half turn.
+        seen = self.browser.evaluate(f"""(() => {{
+          const seen = [], minutes = kreplView.page.path.minutes;
+          for (let k = 0; k <= 4000; ++k) {{
+            kreplView.setTime(minutes * k / 4000);
+            const tool = kreplView.tool();
+            if (tool.line === {number}) seen.push([tool.x, tool.y, tool.z]);
+          }}
+          return seen;
+        }})()""")
+        self.assertGreater(len(seen), 3)
+        for a, b, c in zip(seen, seen[1:], seen[2:]):
+            self.assertLess(b[2], a[2])
+            self.assertAlmostEqual(b[2] - a[2], c[2] - b[2], 3, "evenly")
+        middle = [10.0, 10.0]
+        self.set_time(0)
+        self.assertAlmostEqual(self.material(*middle)["height"], 3, 5)
+        self.set_time(1e9)
+        self.assertLess(self.material(*middle)["height"], 0.3)
+        self.assertAlmostEqual(self.material(1.5, 1.5)["height"], 3, 2, "the rest of the block stays")
+        self.shot("path_rough")
+
+    def test_rest_passes_cut_the_corners_of_a_pocket(self):
+        pocket = PAGES.grid("corners", 21, 21, lambda x, y: 0 if max(abs(x - 10), abs(y - 10)) < 6 else 3, AT)
+        _, page = self.mill("rest", pocket, "ball:2", "--strategy", "rest", "--scallop", 0.1, "--after", "ball:6")
+        self.open("time=0", page)
+        self.set_time(1e9)
+        self.assertLess(self.material(5.6, 5.6)["height"], 2, "a corner")
+        self.assertAlmostEqual(self.material(10, 10)["height"], 3, 5, "the middle was for the larger ball")
+        self.shot("path_rest")
+
     def test_playing(self):
         self.open()
         self.browser.evaluate("document.getElementById('speed').value = '60'")
