@@ -69,8 +69,8 @@ class Parts {
   Vector contact(Index part, Vector c) const;
   /// True if both are edges in one line of space.
   bool are_in_one_line(Index first, Index second) const;
-  /// Neighbours: their patches meet in a seam where they touch the same place. A face and another face or an edge need two
-  /// vertices in common: such as lie one on the other in one plane do not continue each other.
+  /// Neighbours: their patches meet in a seam where they touch the same place. A face and another face or an edge need
+  /// two vertices in common: such as lie one on the other in one plane do not continue each other.
   bool continue_smoothly(Index first, Index second) const;
   /// From a point to the triangle and everything straight below it, which is convex. A semi-krepl is what is nearer
   /// than R.

@@ -511,7 +511,8 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
   return nearest;
 }
 
-/// Where two walls in one line that meet in a valley are equally high, if that is close to p: the valley is tangent to them.
+/// Where two walls in one line that meet in a valley are equally high, if that is close to p: the valley is tangent to
+/// them.
 template <class Real>
 std::optional<PointOf<Real>> Cells<Real>::level_of_walls(Point p) const {
   const PatchSet<Real>& patches = envelope_.patches();
@@ -524,7 +525,8 @@ std::optional<PointOf<Real>> Cells<Real>::level_of_walls(Point p) const {
   };
   for (const Turn& t : turns_) {
     if (t.meeting != Meeting::valley) continue;
-    if (patches[t.before].kind != Terrain::FeatureKind::edge || patches[t.after].kind != Terrain::FeatureKind::edge) continue;
+    if (patches[t.before].kind != Terrain::FeatureKind::edge || patches[t.after].kind != Terrain::FeatureKind::edge)
+      continue;
     const Bound *a = wall_of(t.before), *b = wall_of(t.after);
     if (a == nullptr || b == nullptr || a->type != BoundType::line || b->type != BoundType::line) continue;
     const Gradient g = envelope_.bound_gradient(*a, p), r = envelope_.rim_gradient(t.before),

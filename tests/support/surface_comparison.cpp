@@ -85,16 +85,16 @@ class Reduced {
   Point3 place(Index v) const { return place_[v]; }
 
   /// A ball about p touches what balls touch beside the vertex, at seams at one place, within the tolerance. What meets
-  /// a wall there may do so further down than the vertex, but not all of it unless heights do not count.
-  bool touches(Index v, Point3 p, double tolerance, bool any_height = false) const {
-    bool top = any_height;
+  /// a wall there may do so further down than the vertex, but not all of it.
+  bool touches(Index v, Point3 p, double tolerance) const {
+    bool top = false;
     for (const Index h : ends_[v]) {
       const auto edge = surface_.edge(h / 2);
       const bool wall = edge.kind == Surface::EdgeKind::rim, below = end_of(h).z < place_[v].z - tolerance;
       const LongPoint c{p.x, p.y, p.z};
       if (below && !wall ? !touches_below(h, p, tolerance) : !touches(edge, c, tolerance)) return false;
       // Where a wall begins, balls touch at their own height.
-      if (wall && !below && !any_height && std::fabs(double(foot(upper(edge), c).z - c.z)) > tolerance) return false;
+      if (wall && !below && std::fabs(double(foot(upper(edge), c).z - c.z)) > tolerance) return false;
       top = top || !below;
     }
     return top;
@@ -196,10 +196,14 @@ class Reduced {
     const Index v = find(topology_.origin[2 * e]), w = find(topology_.origin[2 * e + 1]);
     const bool same = off(points.back()) <= tolerance;
     if (!same && !up_to_tangency) return;
-    const bool wall = std::fabs(place_[v].z - place_[w].z) > 4 * tangent_;  // one is at the foot, the other further up
-    if (touches(w, place_[v], tolerance * exact, wall))
+    // One may be at the foot of a wall, the other further up.
+    const bool wall = std::fabs(place_[v].z - place_[w].z) > 4 * tangent_;
+    const auto moved = [&](Index from, Index to) {
+      return Point3{place_[to].x, place_[to].y, place_[wall ? from : to].z};
+    };
+    if (touches(w, moved(w, v), tolerance * exact))
       contract(e, v, w);
-    else if (touches(v, place_[w], tolerance * exact, wall))
+    else if (touches(v, moved(v, w), tolerance * exact))
       contract(e, w, v);
     else if (same)
       contract(e, v, w);
