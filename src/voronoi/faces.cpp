@@ -13,11 +13,12 @@ Vector<double> rounded(Vector<Real> v) {
   return {double(v.x), double(v.y)};
 }
 
-/// The least distance along an arc of a side's border: a parabola has its lowest point under the other site.
+/// The least distance along an arc of a side's border, given those at its ends: a parabola has its lowest point under
+/// the other site.
 template <class Real>
-Real lowest(const SideCurve<Real>& curve, Real begin, Real end) {
-  if (!curve.is_line && begin < curve.at.x && curve.at.x < end) return curve.at.y / 2;
-  return std::min(curve.height(begin), curve.height(end));
+double lowest(const SideCurve<Real>& curve, Real begin, Real end, double first, double last) {
+  if (!curve.is_line && begin < curve.at.x && curve.at.x < end) return double(curve.at.y / 2);
+  return std::min(first, last);
 }
 template <class Real>
 Real lowest(const VertexCurve<Real>& curve, Real begin, Real end) {
@@ -26,6 +27,15 @@ Real lowest(const VertexCurve<Real>& curve, Real begin, Real end) {
     return curve.is_line ? curve.distance / 2 : length(curve.at) / 2;
   }
   return std::min(curve.height(begin), curve.height(end));
+}
+
+/// The height of a side's border where arc i ends at x, and arc k begins or the reverse. Where arc i is too steep for the
+/// place's rounding (the bisector of two segments that cross at a narrow angle stands nearly upright), by arc k.
+template <class Arcs, class Real>
+double joint_height(const Arcs& arcs, std::size_t i, std::size_t k, Real x) {
+  constexpr double steep = 1024;
+  const bool by_other = k < arcs.size() && arcs[i].curve.steepness(x) > steep && arcs[k].curve.steepness(x) <= steep;
+  return double(arcs[by_other ? k : i].curve.height(x));
 }
 
 }  // namespace
@@ -81,6 +91,36 @@ void FaceBuilder::judge(const Cell& cell, std::span<const Hint> hints, Vector<do
   reach_.update(cell, cell, base, known_);
 }
 
+/// Where a side's face is open still, what follows its neighbours there along their own lines probably closes it. Puts
+/// that into seeds_; false if there is nothing open.
+bool FaceBuilder::find_seeds_beside_the_open() {
+  seeds_.clear();
+  const auto add_beside = [&](Index label) {
+    if (label >= site_itself) return;
+    if (!sites_.is_side(label)) {
+      const auto sector = sites_.instance().sector(sites_.instance().vertex_of(label));
+      if (sites_.is_side(sector.before)) seeds_.push_back(sector.before), seeds_.push_back(sector.after);
+      return;
+    }
+    for (const int end : {0, 1}) {
+      const Index corner = sites_.corner(label, end);
+      seeds_.push_back(corner);
+      if (sites_.is_side(corner)) continue;
+      const auto sector = sites_.instance().sector(sites_.instance().vertex_of(corner));
+      seeds_.push_back(end == 0 ? sector.before : sector.after);
+    }
+  };
+  const auto& arcs = side_.arcs();
+  bool open = false;
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    if (arcs[i].curve.label != none) continue;
+    open = true;
+    add_beside(i > 0 ? arcs[i - 1].curve.label : side_.corner(0));
+    add_beside(i + 1 < arcs.size() ? arcs[i + 1].curve.label : side_.corner(1));
+  }
+  return open;
+}
+
 template <class Cell>
 void FaceBuilder::gather(Cell& cell, std::span<const Hint> hints, Vector<double> base, Vector<double> from) {
   taken_.clear();
@@ -96,9 +136,18 @@ void FaceBuilder::gather(Cell& cell, std::span<const Hint> hints, Vector<double>
   for (const Index label : seeds_) {
     if (reach_.meets(site_box(sites_.site_of(label)))) narrower = take_label(label) || narrower;
   }
+  if constexpr (std::is_same_v<Cell, SideCell<double>>) {
+    constexpr int most_steps = 8;
+    for (int i = 0; i < most_steps && find_seeds_beside_the_open(); ++i) {
+      bool closer = false;
+      for (const Index label : seeds_) closer = (label != cell.element() && take_label(label)) || closer;
+      if (!closer) break;
+      narrower = true;
+    }
+  }
   if (narrower) judge(cell, hints, base);
   if (reach_.is_empty()) return;
-  const auto window = [&]() -> const SiteBoxes::Box& { return reach_.window(); };
+  const auto window = [&]() -> const SiteBoxes::SearchWindow& { return reach_.window(); };
   const auto meets = [&](const SiteBoxes::Box& box) { return reach_.meets(box); };
   const auto visit = [&](Index site) {
     const bool changed = take(cell, site, all_parts);
@@ -212,10 +261,13 @@ void FaceBuilder::gather_precisely(const Cell& cell, Precise& precise, Vector<do
   };
   update();
   boxes_.search_nearest(
-      base, memory_, [&]() -> const SiteBoxes::Box& { return reach_.window(); },
+      base, memory_, [&]() -> const SiteBoxes::SearchWindow& { return reach_.window(); },
       [&](const SiteBoxes::Box& box) { return reach_.meets(box); },
       [&](Index site) {
-        if (!std::binary_search(near_.begin(), near_.end(), site) && precise.add_site(site, all_parts)) update();
+        const bool changed =
+            !std::binary_search(near_.begin(), near_.end(), site) && precise.add_site(site, all_parts);
+        if (changed) update();
+        return changed;
       });
 }
 
@@ -271,12 +323,13 @@ bool FaceBuilder::write(const SideCell<Real>& cell, std::vector<Link>& out) {
   }
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const auto& a = arcs[i];
-    const double height = double(a.curve.height(a.end)), width = double(a.end - a.begin);
+    const double height = joint_height(arcs, i, i + 1, a.end), width = double(a.end - a.begin);
+    const double start = joint_height(arcs, i, i - 1, a.begin);  // of the first, i - 1 is none
     const Index label = a.curve.label, after = i + 1 < arcs.size() ? arcs[i + 1].curve.label : last;
     if (label != none && before != after && width <= sites_.coincidence(height) &&
-        is_short(width, double(a.curve.height(a.begin)), height))
+        is_short(width, start, height))
       continue;
-    out.push_back({label, height, double(lowest(a.curve, a.begin, a.end)), place(a.end, height)});
+    out.push_back({label, height, lowest(a.curve, a.begin, a.end, start, height), place(a.end, height)});
     before = label;
     if (i + 1 == arcs.size()) continue;
     // A segment that crosses the base at a narrow angle: its far side's stretch may be too short to be seen.

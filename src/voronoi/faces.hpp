@@ -66,6 +66,7 @@ class FaceBuilder {
   template <class Cell>
   void judge(const Cell& cell, std::span<const Hint> hints, Vector<double> base);
   void find_known(std::span<const Hint> hints, Index before, Index after);
+  bool find_seeds_beside_the_open();
   template <class Real>
   void build_with(SideCell<Real>& side, VertexCell<Real>& vertex, Index element, std::span<const Index> labels,
                   std::vector<Link>& out);

@@ -35,8 +35,8 @@ void Reach::add_strip(Vector<double> p, Vector<double> q, Vector<double> n, doub
 
 void Reach::close() {
   if (is_empty()) low_ = high_ = {0, 0};
-  window_ = {{base_.x + (low_.x + high_.x) / 2, base_.y + (low_.y + high_.y) / 2},
-             {(high_.x - low_.x) / 2 * wider + slack_, (high_.y - low_.y) / 2 * wider + slack_}};
+  window_ = SiteBoxes::SearchWindow({{base_.x + (low_.x + high_.x) / 2, base_.y + (low_.y + high_.y) / 2},
+                               {(high_.x - low_.x) / 2 * wider + slack_, (high_.y - low_.y) / 2 * wider + slack_}});
 }
 
 template <class Real>

@@ -36,7 +36,7 @@ class Reach {
   /// True if the face still reaches the horizon.
   bool is_open() const { return open_; }
   /// A box around all empty disks.
-  const SiteBoxes::Box& window() const { return window_; }
+  const SiteBoxes::SearchWindow& window() const { return window_; }
 
  private:
   static constexpr double wider = 1 + 1e-9;
@@ -68,7 +68,7 @@ class Reach {
   std::vector<Strip> strips_;
   std::vector<Sector> sectors_;
   Vector<double> low_{}, high_{};
-  SiteBoxes::Box window_{};
+  SiteBoxes::SearchWindow window_;
 };
 
 }  // namespace krepl::voronoi

@@ -56,7 +56,9 @@ void SideCell<Real>::add_vertex(Index vertex, Vector<Real> q) {
   // The frame is a reflection: counter-clockwise in the plane is clockwise here.
   const Vector<Real> first = rotate(sites_.normal<Real>(sector.after)),
                      last = rotate(sites_.normal<Real>(sector.before));
-  const Real low = touching(q, first).x, high = touching(q, last).x;
+  // A limit that looks straight up is never reached.
+  const auto limit = [&](Vector<Real> n, Real beyond) { return one_minus_y(n) > 0 ? touching(q, n).x : beyond; };
+  const Real low = limit(first, -infinite<Real>()), high = limit(last, infinite<Real>());
   if (first.x > 0 && last.x < 0) {  // the sector opens upwards
     insert(curve, -infinite<Real>(), high);
     insert(curve, low, infinite<Real>());

@@ -40,6 +40,8 @@ struct SideCurve {
     const Real dx = x - at.x;
     return is_line ? at.y + slope * dx : (dx * dx + at.y * at.y) / (2 * at.y);
   }
+  /// By how much an error of the place is magnified in the height.
+  double steepness(Real x) const { return std::abs(double(is_line ? slope : (x - at.x) / at.y)); }
 };
 
 /// Two points: the lower one is nearer between the roots of (q2y - q1y) t^2 + 2 q1y dx t + q1y (q2y (q1y - q2y) -

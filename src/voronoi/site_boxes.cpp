@@ -21,9 +21,15 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-unsigned SiteBoxes::Node::meeting(const Box& window) const {
-  const float low_x = float_below(window.centre.x - window.half.x), high_x = float_above(window.centre.x + window.half.x);
-  const float low_y = float_below(window.centre.y - window.half.y), high_y = float_above(window.centre.y + window.half.y);
+SiteBoxes::SearchWindow::SearchWindow(const Box& box)
+    : Box(box),
+      low_x(float_below(centre.x - half.x)),
+      high_x(float_above(centre.x + half.x)),
+      low_y(float_below(centre.y - half.y)),
+      high_y(float_above(centre.y + half.y)) {}
+
+unsigned SiteBoxes::Node::meeting(const SearchWindow& window) const {
+  const float low_x = window.low_x, high_x = window.high_x, low_y = window.low_y, high_y = window.high_y;
   unsigned bits = 0;
 #ifdef __SSE2__
   for (int k = 0; k < arity; k += 4) {
@@ -82,15 +88,16 @@ void SiteBoxes::find_start(const Box& window, Memory& m) const {
   const bool ample = m.area_.half.x > 8 * window.half.x && m.area_.half.y > 8 * window.half.y && m.level_ > 1;
   if (within(window, m.area_) && !ample) return;
   m.area_ = {window.centre, {2 * window.half.x, 2 * window.half.y}};
+  const SearchWindow area(m.area_);
   m.level_ = std::uint32_t(levels_.size() - 1);
   m.start_.clear();
-  for (unsigned bits = levels_.back()[0].meeting(m.area_); bits != 0; bits &= bits - 1) {
+  for (unsigned bits = levels_.back()[0].meeting(area); bits != 0; bits &= bits - 1) {
     m.start_.push_back(std::uint32_t(std::countr_zero(bits)));
   }
   while (m.level_ > 1) {
     m.below_.clear();
     for (const std::uint32_t i : m.start_) {
-      for (unsigned bits = levels_[m.level_ - 1][i].meeting(m.area_); bits != 0; bits &= bits - 1) {
+      for (unsigned bits = levels_[m.level_ - 1][i].meeting(area); bits != 0; bits &= bits - 1) {
         m.below_.push_back(i * arity + std::uint32_t(std::countr_zero(bits)));
       }
     }

@@ -19,6 +19,12 @@ class SiteBoxes {
   struct Box {
     Vector<double> centre, half;
   };
+  /// A box that nodes are compared with.
+  struct SearchWindow : Box {
+    SearchWindow() : SearchWindow(Box{}) {}
+    explicit SearchWindow(const Box& box);
+    float low_x, high_x, low_y, high_y;  // rounded outwards
+  };
 
   SiteBoxes(const Instance& instance, const Context& context);
 
@@ -27,18 +33,23 @@ class SiteBoxes {
   class Memory {
    private:
     friend class SiteBoxes;
+    struct Waiting {
+      std::uint64_t entry;
+      std::uint32_t changes;  // of the reach before it was found to meet it
+      friend bool operator>(const Waiting& a, const Waiting& b) { return a.entry > b.entry; }
+    };
     Box area_{{0, 0}, {-1, -1}};
     std::uint32_t level_ = 0;
     std::vector<std::uint32_t> start_, below_;
-    std::vector<std::uint64_t> heap_;
+    std::vector<std::uint64_t> stack_;
+    std::vector<Waiting> heap_;
   };
 
   /// Calls visit(site) for every site whose box, and the boxes above it, meet window() and pass meets(box). Both may
-  /// become narrower meanwhile. Nearest to `from` first: where little is known yet.
+  /// become narrower meanwhile; visit() tells whether they did. Nearest to `from` first: where little is known yet.
   template <class Window, class Meets, class Visit>
   void search_nearest(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const;
   /// The same by going down the tree, nearest boxes first: where what is found will not make the window much narrower.
-  /// visit() tells whether it did.
   template <class Window, class Meets, class Visit>
   void search_near(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const;
 
@@ -47,7 +58,7 @@ class SiteBoxes {
   static constexpr unsigned index_bits = 28;
   struct Node {
     /// Which boxes meet a window, as bits.
-    unsigned meeting(const Box& window) const;
+    unsigned meeting(const SearchWindow& window) const;
     float min_x[arity], min_y[arity], max_x[arity], max_y[arity];
   };
   static std::uint64_t entry(float distance, std::uint32_t level, std::uint32_t index) {
@@ -81,23 +92,24 @@ class SiteBoxes {
 template <class Window, class Meets, class Visit>
 void SiteBoxes::search_nearest(Vector<double> from, Memory& memory, Window&& window, Meets&& meets,
                                Visit&& visit) const {
-  std::vector<std::uint64_t>& heap = memory.heap_;
+  auto& heap = memory.heap_;
   heap.clear();
+  std::uint32_t changes = 0;
   const auto consider = [&](std::uint32_t level, std::uint32_t i) {
     const Box b = box(level, i);
     if (!meets(b)) return;
-    heap.push_back(entry(squared_distance(from, b), level, i));
+    heap.push_back({entry(squared_distance(from, b), level, i), changes});
     std::push_heap(heap.begin(), heap.end(), std::greater<>{});
   };
   for (std::uint32_t i = 0; i < arity; ++i) consider(std::uint32_t(levels_.size() - 1), i);
   while (!heap.empty()) {
     std::pop_heap(heap.begin(), heap.end(), std::greater<>{});
-    const std::uint64_t e = heap.back();
+    const auto waiting = heap.back();
     heap.pop_back();
-    const std::uint32_t level = std::uint32_t(e) >> index_bits, index = std::uint32_t(e) & ((1u << index_bits) - 1);
-    if (!meets(box(level, index))) continue;  // what was found meanwhile may rule it out
+    const std::uint32_t e = std::uint32_t(waiting.entry), level = e >> index_bits, index = e & ((1u << index_bits) - 1);
+    if (waiting.changes != changes && !meets(box(level, index))) continue;  // what was found meanwhile rules it out
     if (level == 0) {
-      visit(index);
+      if (visit(index)) ++changes;
       continue;
     }
     for (unsigned bits = levels_[level - 1][index].meeting(window()); bits != 0; bits &= bits - 1) {
@@ -108,7 +120,7 @@ void SiteBoxes::search_nearest(Vector<double> from, Memory& memory, Window&& win
 
 template <class Window, class Meets, class Visit>
 void SiteBoxes::search_near(Vector<double> from, Memory& memory, Window&& window, Meets&& meets, Visit&& visit) const {
-  std::vector<std::uint64_t>& stack = memory.heap_;
+  std::vector<std::uint64_t>& stack = memory.stack_;
   stack.clear();
   const auto consider = [&](std::uint32_t level, std::uint32_t i) {
     const Box b = box(level, i);

@@ -1,4 +1,4 @@
-// Runs every file of tests/corpus/zone: text with one defect each. Header lines:
+// Runs every file of tests/corpus/zone, by all three engines: text with one defect each. Header lines:
 //   # defect: what is special
 //   # radius: R            (several: the file is run with each; `# rings` then belongs to the radius before it)
 //   # rings: OUTER HOLES   (known by reasoning; may be left out)
@@ -9,8 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include "krepl/sweep.hpp"
+#include "krepl/voronoi.hpp"
 #include "support/environment.hpp"
 #include "support/wkt_file.hpp"
+#include "support/zone_comparison.hpp"
 
 namespace krepl::test {
 namespace {
@@ -50,6 +53,22 @@ CorpusFile read(const std::filesystem::path& path) {
   return file;
 }
 
+/// What the other engines make of the case, where they do not give the same zone.
+std::optional<std::string> difference_of_engines(const Zone& zone, const ZoneCase& c) {
+  const auto network = std::make_shared<const Network>(*network_of(c));
+  const auto by_sweep = compute_zone_by_sweep(network, {c.radius});
+  if (!by_sweep) return "sweep: " + by_sweep.error().text();
+  if (auto differ = any_difference(zone, *by_sweep)) return "sweep: " + *differ;
+  const auto diagram = VoronoiDiagram::build(network);
+  if (!diagram) return "diagram: " + diagram.error().text();
+  if (c.radius >= diagram->horizon()) return std::nullopt;
+  const auto by_diagram = diagram->zone({c.radius});
+  if (!by_diagram) return "diagram: " + by_diagram.error().text();
+  if (auto wrong = by_diagram->validate()) return "diagram: " + *wrong;
+  if (auto differ = difference(zone, *by_diagram)) return "diagram: " + *differ;
+  return std::nullopt;
+}
+
 TEST(ZoneCorpus, EveryFile) {
   const auto folder = source_directory() / "tests" / "corpus" / "zone";
   std::vector<std::filesystem::path> paths;
@@ -69,6 +88,7 @@ TEST(ZoneCorpus, EveryFile) {
       EXPECT_TRUE(zone.ok()) << zone.error().text();
       if (!zone.ok()) continue;
       EXPECT_EQ(fault_in(*zone, c, 0.1).value_or("sound"), "sound");
+      EXPECT_EQ(difference_of_engines(*zone, c).value_or("none"), "none");
       if (run.rings) {
         EXPECT_EQ(counts(*zone), *run.rings);
       }

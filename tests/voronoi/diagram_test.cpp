@@ -160,6 +160,47 @@ TEST(VoronoiDiagram, TiesAreOneVertexAndNeedNoPrecision) {
   EXPECT_EQ(half_edges, 2 * 9 * 8);
 }
 
+/// Ends of segments look straight at sides, at right angles and in straight lines; everything ties.
+TEST(VoronoiDiagram, OutlinesOfPixelsNeedNoPrecision) {
+  constexpr int size = 24;
+  std::mt19937_64 random(1);
+  std::vector<char> full((size + 2) * (size + 2));
+  const auto at = [&](int i, int k) -> char& { return full[std::size_t(i * (size + 2) + k)]; };
+  for (int i = 1; i <= size; ++i)
+    for (int k = 1; k <= size; ++k) at(i, k) = random() % 2 != 0;
+  ZoneCase c;
+  for (int i = 0; i <= size; ++i) {
+    for (int k = 0; k <= size; ++k) {
+      const double x = k, y = i;
+      if (at(i, k) != at(i + 1, k)) c.parts.push_back(line({{x, y}, {x + 1, y}}));
+      if (at(i, k) != at(i, k + 1)) c.parts.push_back(line({{x, y}, {x, y + 1}}));
+    }
+  }
+  expect_sound(c);
+  const auto diagram = VoronoiDiagram::build(shared(c));
+  ASSERT_TRUE(diagram.ok());
+  EXPECT_EQ(diagram->counters().faces_in_pairs, 0u);
+}
+
+/// Two segments that overlap but for the move of vertices, and a third at twice the radius: all along the middle the
+/// clearance is the radius, whatever the precision says of where the overlap's own bisector meets it.
+TEST(VoronoiDiagram, ClearanceBesideAnOverlapIsExact) {
+  const auto network = shared({{line({{39e7, 2e7}, {45e7, 10e7}}), line({{16e7, -12e7}, {40e7, 20e7}}),
+                                line({{34e7, 12e7}, {37e7, 16e7}})}});
+  const auto diagram = VoronoiDiagram::build(network);
+  ASSERT_TRUE(diagram.ok()) << diagram.error().text();
+  constexpr double between = 5e7;
+  int on_the_middle = 0;
+  for (const auto& edge : diagram->edges()) {
+    for (const double clearance : {edge.start_clearance, edge.end_clearance}) {
+      if (std::abs(clearance - between) > 1) continue;
+      EXPECT_NEAR(clearance, between, 1e-6);  // a unit in the last place is 6e-8
+      ++on_the_middle;
+    }
+  }
+  EXPECT_GE(on_the_middle, 6);
+}
+
 TEST(VoronoiDiagram, FoldedSegmentsAtOneVertex) {
   for (const double length : {0.00390625, 0.5, 1.0 / 3}) {
     const ZoneCase c{{line({{0, 0}, {1, 0}}), line({{length, 0}, {0, 0}})}};

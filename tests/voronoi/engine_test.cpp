@@ -1,5 +1,6 @@
 // The zones out of the diagram are those of the covered-intervals engine, on every family of degenerate input.
 #include <cstdio>
+#include <random>
 
 #include "krepl/voronoi.hpp"
 #include "support/zone_comparison.hpp"
@@ -52,6 +53,37 @@ TEST_P(VoronoiEngine, AgreesWithIntervals) {
 }
 
 KREPL_FOR_ALL_FAMILIES(VoronoiEngine);
+
+/// Segments on parallel lines that are multiples of 2R apart, in a direction of whole numbers; several lie on each other.
+ZoneCase overlapping_parallels(std::mt19937_64& random) {
+  static constexpr double triples[][3] = {{3, 4, 5}, {5, 12, 13}, {8, 15, 17}, {7, 24, 25}, {1, 0, 1}};
+  const auto pick = [&](int below) { return int(random() % std::uint64_t(below)); };
+  const auto& [dx, dy, span] = triples[pick(5)];
+  constexpr double scales[] = {1, 1e7, 0.125};
+  const double scale = scales[pick(3)];
+  ZoneCase c;
+  c.radius = span * scale;  // lines are twice that apart
+  const int count = 3 + pick(6);
+  for (int i = 0; i < count; ++i) {
+    const double across = 2 * pick(3), from = pick(20), to = from + 1 + pick(12);
+    const auto at = [&](double along) {
+      return Point{scale * (dx * along - dy * across), scale * (dy * along + dx * across)};
+    };
+    c.parts.push_back(line({at(from), at(to)}));
+  }
+  return c;
+}
+
+TEST(VoronoiEngineTies, OverlappingParallelsAtTwiceTheRadius) {
+  std::mt19937_64 random(20060401);
+  Tally tally;
+  for (int i = 0; i < 500; ++i) {
+    const ZoneCase c = overlapping_parallels(random);
+    const auto fault = fault_of_engines(c, tally);
+    ASSERT_FALSE(fault) << *fault << "\n" << text(c);
+  }
+  EXPECT_LE(tally.refused, tally.all / 100);
+}
 
 }  // namespace
 }  // namespace krepl::test
