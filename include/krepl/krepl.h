@@ -120,7 +120,7 @@ typedef struct krepl_zone krepl_zone;
 
 /* Algorithms; all give the same zone. */
 enum {
-  KREPL_ENGINE_AUTO = 0,      /* chosen by the number of radii */
+  KREPL_ENGINE_AUTO = 0,      /* chosen by the number of radii, and by how the input lies */
   KREPL_ENGINE_INTERVALS = 1, /* covered intervals of boundary elements (docs/zone.md) */
   KREPL_ENGINE_VORONOI = 2    /* out of the segment Voronoi diagram (docs/voronoi.md) */
 };

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "krepl/context.hpp"
 #include "krepl/error.hpp"
@@ -43,5 +44,19 @@ struct SweepOptions {
 /// per segment. `counters`, if given, receives what it cost. Errors as compute_zone.
 Result<Zone> compute_zone_by_sweep(std::shared_ptr<const Network> network, const SweepOptions& options,
                                    const Context& context = {}, SweepCounters* counters = nullptr);
+
+/// How compute_zone_auto came to its zone.
+struct AutoCounters {
+  bool by_sweep = false;
+  std::string given_up;  ///< why the engine by intervals was given up; empty: it was not
+  SweepCounters sweep;
+};
+
+/// The zone by intervals (compute_zone), or by the sweep where too many cigars come near the same places: along a finely
+/// digitised circle of nearly the radius the search by intervals is quadratic, the sweep is not (docs/zone.md, "Which
+/// engine"). The same zone either way. `most_candidates` of the options is chosen here if it is 0; should the sweep not
+/// certify either, by intervals without a limit. Errors as compute_zone.
+Result<Zone> compute_zone_auto(std::shared_ptr<const Network> network, const ZoneOptions& options,
+                               const Context& context = {}, AutoCounters* counters = nullptr);
 
 }  // namespace krepl

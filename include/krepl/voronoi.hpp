@@ -29,6 +29,13 @@ struct VoronoiCounters {
   std::uint64_t rounds = 0;                 ///< of computing faces again until all neighbours agreed
 };
 
+struct VoronoiOptions {
+  /// A diagram for which more sites than this are looked at (and more than 2^20) is given up with ErrorCode::computation; 0:
+  /// never. Ordinary are 5 to 10 for each face; as many as there are sites where all faces meet in the centre of a finely
+  /// digitised circle. Threads do not change what is given up.
+  std::uint64_t most_candidates = 0;
+};
+
 /// The segment Voronoi diagram of a network: for every place of the plane, which site is nearest. Sites are the two
 /// sides of each open segment and the vertices. A vertex has a face of its own only within the gap above 180 degrees
 /// that its segments leave (thesis 3.4 with its erratum: faces of end points and reflex vertices are there); everywhere
@@ -62,7 +69,8 @@ class VoronoiDiagram {
   /// Computes the diagram: expected O(n log n), about 500 bytes per segment; polygons count as their rings. Decisions
   /// are those of one instance whose vertices are within 2^-72 S (docs/voronoi.md). Errors: cancelled; a diagram that
   /// does not certify.
-  static Result<VoronoiDiagram> build(std::shared_ptr<const Network> network, const Context& context = {});
+  static Result<VoronoiDiagram> build(std::shared_ptr<const Network> network, const Context& context = {},
+                                      const VoronoiOptions& options = {});
 
   /// The zone of the network at one radius: the same rings as compute_zone gives. O(n), with a small constant. Errors
   /// as compute_zone; and ErrorCode::usage for a radius beyond horizon().
@@ -112,5 +120,8 @@ class VoronoiDiagram {
 /// Whether one diagram for all radii is the quicker way to their zones, against compute_zone once for each. A diagram costs
 /// about as much as a dozen zones without one (docs/voronoi.md, "Cost"), and ends at its horizon.
 bool diagram_pays(const Network& network, std::span<const double> radii);
+
+/// VoronoiOptions::most_candidates beyond which a diagram for that many radii takes longer than a zone by the sweep for each.
+std::uint64_t diagram_budget(const Network& network, std::size_t radii);
 
 }  // namespace krepl

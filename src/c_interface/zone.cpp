@@ -9,6 +9,7 @@
 
 #include "c_interface/handles.hpp"
 #include "c_interface/network.hpp"
+#include "krepl/sweep.hpp"
 #include "krepl/voronoi.hpp"
 
 namespace ci = krepl::c_interface;
@@ -52,11 +53,12 @@ krepl::Result<krepl_zone_options> read_options(const krepl_zone_options* given) 
   return options;
 }
 
-krepl::Result<std::vector<krepl::Zone>> zones_by_intervals(const krepl_network& network, std::span<const double> radii,
-                                                           const krepl::Context& context) {
+krepl::Result<std::vector<krepl::Zone>> zones_one_by_one(const krepl_network& network, bool chosen,
+                                                         std::span<const double> radii, const krepl::Context& context) {
   std::vector<krepl::Zone> zones;
   for (double radius : radii) {
-    auto zone = krepl::compute_zone(network.network, {radius}, context);
+    auto zone = chosen ? krepl::compute_zone_auto(network.network, {radius}, context)
+                       : krepl::compute_zone(network.network, {radius}, context);
     if (!zone) return zone.error();
     zones.push_back(std::move(*zone));
   }
@@ -67,11 +69,13 @@ krepl::Result<std::vector<krepl::Zone>> compute(const krepl_network& network, st
                                                 std::span<const double> radii, const krepl::Context& context) {
   const bool chosen = engine == KREPL_ENGINE_AUTO;
   const bool by_diagram = chosen ? krepl::diagram_pays(*network.network, radii) : engine == KREPL_ENGINE_VORONOI;
-  if (!by_diagram) return zones_by_intervals(network, radii, context);
-  auto diagram = krepl::VoronoiDiagram::build(network.network, context);
+  if (!by_diagram) return zones_one_by_one(network, chosen, radii, context);
+  krepl::VoronoiOptions limits;
+  if (chosen) limits.most_candidates = krepl::diagram_budget(*network.network, radii.size());
+  auto diagram = krepl::VoronoiDiagram::build(network.network, context, limits);
   if (diagram) return diagram->zones(radii, context);
   if (!chosen || diagram.error().code != krepl::ErrorCode::computation) return diagram.error();
-  return zones_by_intervals(network, radii, context);
+  return zones_one_by_one(network, chosen, radii, context);
 }
 
 krepl_status compute_handles(krepl_context* context, const krepl_network* network, const krepl_zone_options* options,

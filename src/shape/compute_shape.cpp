@@ -55,7 +55,7 @@ Result<Outline> outline(const Network& network, const ShapeOptions& o, const Con
   Outline result;
   const double radius = std::abs(o.distance);
   if (o.cap == Cap::round && o.join == Join::round) {
-    auto found = zone::zone_rings(network, radius, context);
+    auto found = zone::zone_rings(network, {radius}, context);
     if (!found) return found.error();
     const auto contracted =
         zone::contract(*found->instance, std::move(found->rings), found->resolution, context, found->counters);

@@ -259,7 +259,7 @@ Result<Zone> one_sided(std::shared_ptr<const Network> network, const ShapeOption
   const zone::Instance shape(*network, 0, 0, 1, context);
   const voronoi::Sites sites(shape, context);
   const voronoi::SiteBoxes boxes(shape, context);
-  const auto diagram = voronoi::build_diagram(sites, boxes, context);
+  const auto diagram = voronoi::build_diagram(sites, boxes, 0, context);
   if (!diagram) return diagram.error();
   const zone::Instance instance(shape, radius, precision->effective_radius, precision->resolution);
   const double max_error = options.max_error > 0 ? options.max_error : radius * 1e-6;

@@ -14,10 +14,11 @@ constexpr std::size_t block = 1 << 11;
 constexpr int most_rounds = 64;
 
 /// Marks, among the given faces, those that disagree with a neighbour, and the neighbour.
-void mark_disagreeing(const Borders& borders, const std::vector<Index>& faces, const Context& context,
+void mark_disagreeing(Borders& borders, const std::vector<Index>& faces, const Context& context,
                       std::vector<char>& marked) {
   Context quiet;
   quiet.threads = context.threads;
+  borders.remember_twins();
   std::vector<std::vector<Index>> parts((faces.size() + block - 1) / block);
   kernel::parallel_blocks(quiet, faces.size(), block, [&](std::size_t from, std::size_t to) {
     for (std::size_t k = from; k < to; ++k) {
@@ -312,8 +313,8 @@ std::optional<Index> find_apart(const Diagram& d, const Instance& in) {
 
 }  // namespace
 
-Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, const Context& context) {
-  const Error cancelled{ErrorCode::cancelled, "cancelled", "", ""};
+Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, std::uint64_t most_candidates,
+                              const Context& context) {
   Borders borders(sites);
   DiagramCounters counters;
   std::vector<char> again;
@@ -321,7 +322,8 @@ Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, const 
   again.assign(n, 0);
   borders.first.assign(n, 0);
   borders.count.assign(n, 0);
-  if (!build_first_faces(sites, boxes, context, borders, again, counters)) return cancelled;
+  if (Status built = build_first_faces(sites, boxes, most_candidates, context, borders, again, counters); !built)
+    return built.error();
   if (Status agreed = Settling(sites, boxes, context, borders, again, counters).run(); !agreed) return agreed.error();
   Diagram d = lay_out(borders, context);
   d.counters = counters;

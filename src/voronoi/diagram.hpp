@@ -37,8 +37,10 @@ struct Diagram {
 };
 
 /// Computes all faces in parallel and puts them together; faces that disagree with a neighbour are done again more
-/// precisely. ErrorCode::computation names the place where neighbours still disagree.
-Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, const Context& context);
+/// precisely. ErrorCode::computation names the place where neighbours still disagree, or says that there were more
+/// candidates than VoronoiOptions::most_candidates allows.
+Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, std::uint64_t most_candidates,
+                              const Context& context);
 
 /// Twins are mutual and bound by the same vertices, borders are closed, what has no neighbour lies at the horizon.
 /// Returns what is wrong, or nothing.

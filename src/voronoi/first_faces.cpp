@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 
+#include "kernel/budget.hpp"
 #include "kernel/parallel.hpp"
 
 namespace krepl::voronoi {
@@ -39,8 +40,10 @@ class Hints {
 /// The faces that sites bring along, in double precision, a block of neighbouring sites after the other.
 class FirstFaces {
  public:
-  FirstFaces(const Sites& sites, const SiteBoxes& boxes, Borders& borders, std::vector<char>& again)
-      : sites_(sites),
+  FirstFaces(const Sites& sites, const SiteBoxes& boxes, std::uint64_t most_candidates, Borders& borders,
+             std::vector<char>& again)
+      : budget_(most_candidates),
+        sites_(sites),
         in_(sites.instance()),
         boxes_(boxes),
         borders_(borders),
@@ -49,14 +52,17 @@ class FirstFaces {
         done_(again.size(), 0),
         parts_((in_.site_count() + block - 1) / block) {}
 
-  /// False if cancelled.
-  bool build(const Context& context, DiagramCounters& counters) {
+  Status build(const Context& context, DiagramCounters& counters) {
     kernel::Progress progress(context, in_.site_count());
     const bool done = kernel::parallel_blocks(context, in_.site_count(), block, [&](std::size_t from, std::size_t to) {
       build_block(Index(from), Index(to), context);
       progress.add(to - from);
     });
-    if (!done || context.cancelled()) return false;
+    if (!done || context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
+    if (budget_.is_exceeded()) {
+      return Error{ErrorCode::computation, "too many sites come near the same places of the Voronoi diagram", "",
+                   "take another engine, or allow more candidates"};
+    }
     std::size_t total = 0;
     for (const Part& part : parts_) total += part.links.size();
     kernel::reserve_pages(context, borders_.links, total);
@@ -73,7 +79,7 @@ class FirstFaces {
       build_flat(v);
       ++counters.faces;
     }
-    return true;
+    return std::monostate{};
   }
 
  private:
@@ -87,6 +93,7 @@ class FirstFaces {
     Part& part = parts_[from / block];
     FaceBuilder builder(sites_, boxes_);
     Hints hints(heads_);
+    std::uint64_t spent = 0;
     const auto build_face = [&](Index e) {
       const std::size_t start = part.links.size();
       again_[e] = !builder.build(e, hints.of(e), part.links);
@@ -95,13 +102,16 @@ class FirstFaces {
       borders_.count[e] = Index(part.links.size() - start);
       part.elements.push_back(e);
       if (!again_[e]) tell(e, {part.links.data() + start, part.links.size() - start}, from, to, hints);
+      budget_.spend(builder.counters.candidates - spent);
+      spent = builder.counters.candidates;
     };
-    for (Index s = from; s < to && !context.cancelled(); ++s) {
+    const auto stops = [&] { return context.cancelled() || budget_.is_exceeded(); };
+    for (Index s = from; s < to && !stops(); ++s) {
       const auto site = in_.site(s);
       if (site.a != site.b) build_face(2 * s), build_face(2 * s + 1);
     }
     // Vertices last: sides tell nearly all about them.
-    for (Index s = from; s < to && !context.cancelled(); ++s) {
+    for (Index s = from; s < to && !stops(); ++s) {
       const auto site = in_.site(s);
       for (const Index v : {site.a, site.b}) {
         if (sites_.owner(v) == s && !done_[in_.circle(v)] && !is_flat(v)) build_face(in_.circle(v));
@@ -146,6 +156,7 @@ class FirstFaces {
     borders_.links.push_back({sector.after, 0, 0, in_.vertices()[v]});
   }
 
+  kernel::Budget budget_;
   const Sites& sites_;
   const Instance& in_;
   const SiteBoxes& boxes_;
@@ -158,9 +169,9 @@ class FirstFaces {
 
 }  // namespace
 
-bool build_first_faces(const Sites& sites, const SiteBoxes& boxes, const Context& context, Borders& borders,
-                       std::vector<char>& again, DiagramCounters& counters) {
-  return FirstFaces(sites, boxes, borders, again).build(context, counters);
+Status build_first_faces(const Sites& sites, const SiteBoxes& boxes, std::uint64_t most_candidates, const Context& context,
+                         Borders& borders, std::vector<char>& again, DiagramCounters& counters) {
+  return FirstFaces(sites, boxes, most_candidates, borders, again).build(context, counters);
 }
 
 }  // namespace krepl::voronoi

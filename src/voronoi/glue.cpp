@@ -79,6 +79,14 @@ bool Borders::coincide(Spot a, Spot b) const {
 Index Borders::twin(Index face, Index link) const {
   const Index other = links[link].label;
   if (other == none) return none;
+  if (link >= twins_.size()) return find_twin(face, link);
+  Index& known = twins_[link];
+  if (known == none || known - first[other] >= count[other]) known = find_twin(face, link);  // the other moved
+  return known;
+}
+
+Index Borders::find_twin(Index face, Index link) const {
+  const Index other = links[link].label;
   const Index p = before(face, link), n = after(face, link);
   Index exact = none, near = none;
   bool several = false;

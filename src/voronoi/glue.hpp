@@ -20,6 +20,8 @@ class Borders {
   /// where more than three faces meet, neighbours may differ and the place is the same. None if there is none, or if two
   /// would do.
   Index twin(Index face, Index link) const;
+  /// Room to remember the twins of all links found from now on: a face that stays where it is keeps them.
+  void remember_twins() { twins_.resize(links.size(), none); }
   /// True if the link has its twin, or lies along the horizon and has no neighbour.
   bool is_sound(Index face, Index link) const {
     return links[link].label == none ? links[link].minimum > horizon_ / 2 : twin(face, link) != none;
@@ -35,6 +37,7 @@ class Borders {
   Index after(Index face, Index link) const;
 
  private:
+  Index find_twin(Index face, Index link) const;
   struct Spot {
     Point place;
     double clearance;
@@ -51,6 +54,7 @@ class Borders {
   const Sites& sites_;
   const Instance& in_;
   double horizon_;
+  mutable std::vector<Index> twins_;  // of links, as far as they are known; written by whoever asks for that link
 };
 
 /// Gives every end of a link its vertex; links that end in the same vertex share it. Where the faces around a vertex do

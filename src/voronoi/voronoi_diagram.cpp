@@ -37,7 +37,13 @@ bool diagram_pays(const Network& network, std::span<const double> radii) {
   return radii.size() >= many && *std::max_element(radii.begin(), radii.end()) < network.extent();
 }
 
-Result<VoronoiDiagram> VoronoiDiagram::build(std::shared_ptr<const Network> network, const Context& context) {
+std::uint64_t diagram_budget(const Network& network, std::size_t radii) {
+  constexpr std::uint64_t each = 64;  // take as long as a sweep takes for a segment
+  return each * std::max<std::uint64_t>(radii, 1) * (network.segments().size() + network.vertices().size());
+}
+
+Result<VoronoiDiagram> VoronoiDiagram::build(std::shared_ptr<const Network> network, const Context& context,
+                                             const VoronoiOptions& options) {
   constexpr double largest_number = 1e18;
   if (network->extent() > largest_number) {
     return Error{ErrorCode::input, "coordinates are beyond 1e18", "", "scale the input"};
@@ -45,7 +51,7 @@ Result<VoronoiDiagram> VoronoiDiagram::build(std::shared_ptr<const Network> netw
   auto parts = std::make_shared<Parts>(std::move(network), context);
   const voronoi::Sites sites(parts->instance, context);
   const voronoi::SiteBoxes boxes(parts->instance, context);
-  auto diagram = voronoi::build_diagram(sites, boxes, context);
+  auto diagram = voronoi::build_diagram(sites, boxes, options.most_candidates, context);
   if (!diagram) return diagram.error();
   parts->diagram = std::move(*diagram);
   const auto& c = parts->diagram.counters;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kernel/box_tree.hpp"
+#include "kernel/budget.hpp"
 #include "kernel/parallel.hpp"
 
 namespace krepl::zone {
@@ -110,17 +111,23 @@ bool contains(const Instance& in, Index site, const Hull& hull) {
 /// Works through a block of elements in order; remembers which sites covered the last ones.
 class Worker {
  public:
-  Worker(const Instance& instance, const SiteTree& tree, const Context& context)
-      : in_(instance), tree_(tree), context_(context) {
+  Worker(const Instance& instance, const SiteTree& tree, const Context& context, kernel::Budget& budget)
+      : in_(instance), tree_(tree), context_(context), budget_(budget) {
     // A hull's corners are off by a few units in the last place of the coordinates; where that is not far below the slack
     // that contains() leaves, nothing is covered "at once" and the error-bounded way decides.
     quick_ = instance.extent() * 0x1p-50 < instance.least_radius() * contains_slack * 0.01;
   }
 
   void run(Index first, Index last, std::vector<Piece>& out, ZoneCounters& counters) {
+    std::uint64_t spent = 0;
+    const auto spend = [&] {
+      budget_.spend(counters.candidates - spent);
+      spent = counters.candidates;
+    };
     for (Index e = first; e < last; ++e) {
       if (e % group == 0 || e == first || e == in_.side_count()) {
-        if (context_.cancelled()) return;
+        spend();
+        if (context_.cancelled() || budget_.is_exceeded()) return;
         group_end_ = std::min(last, e - e % group + group);
         has_frontier_ = false;
       }
@@ -130,6 +137,7 @@ class Worker {
         examine<CircleElement>(e, hull_of_circle(in_, e), out, counters);
       }
     }
+    spend();
   }
 
  private:
@@ -245,6 +253,7 @@ class Worker {
   const Instance& in_;
   const SiteTree& tree_;
   const Context& context_;
+  kernel::Budget& budget_;
   bool quick_;
   Index group_end_ = 0;
   bool has_frontier_ = false;
@@ -266,8 +275,8 @@ void add(ZoneCounters& total, const ZoneCounters& part) {
 
 }  // namespace
 
-std::vector<Piece> uncovered_pieces(const Instance& instance, const SiteTree& tree, const Context& context,
-                                    ZoneCounters& counters) {
+Result<std::vector<Piece>> uncovered_pieces(const Instance& instance, const SiteTree& tree, std::uint64_t most_candidates,
+                                            const Context& context, ZoneCounters& counters) {
   constexpr std::size_t block = 1 << 13;
   const std::size_t n = instance.element_count();
   struct Part {
@@ -276,13 +285,19 @@ std::vector<Piece> uncovered_pieces(const Instance& instance, const SiteTree& tr
   };
   std::vector<Part> parts((n + block - 1) / block);
   kernel::Progress progress(context, n);
+  kernel::Budget budget(most_candidates * n);
   const bool done = kernel::parallel_blocks(context, n, block, [&](std::size_t first, std::size_t last) {
     Part& part = parts[first / block];
-    Worker(instance, tree, context).run(Index(first), Index(last), part.pieces, part.counters);
+    Worker(instance, tree, context, budget).run(Index(first), Index(last), part.pieces, part.counters);
     progress.add(last - first);
   });
+  if (!done || context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
+  if (budget.is_exceeded()) {
+    return Error{ErrorCode::computation,
+                 "more than " + std::to_string(most_candidates) + " cigars come near an element in the mean", "",
+                 "take the engine sweep, or allow more"};
+  }
   std::vector<Piece> all;
-  if (!done) return all;
   std::size_t total = 0;
   for (const Part& p : parts) total += p.pieces.size();
   kernel::reserve_pages(context, all, total);

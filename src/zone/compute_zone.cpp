@@ -10,7 +10,8 @@
 namespace krepl {
 namespace zone {
 
-Result<ZoneRings> zone_rings(const Network& network, double radius, const Context& context) {
+Result<ZoneRings> zone_rings(const Network& network, const ZoneOptions& options, const Context& context) {
+  const double radius = options.radius;
   const auto precision = precision_for(network, radius);
   if (!precision) return precision.error();
   const Error cancelled{ErrorCode::cancelled, "cancelled", "", ""};
@@ -22,7 +23,9 @@ Result<ZoneRings> zone_rings(const Network& network, double radius, const Contex
   {
     const SiteTree tree(*result.instance, context);
     if (context.cancelled()) return cancelled;
-    pieces = uncovered_pieces(*result.instance, tree, context, result.counters);
+    auto found = uncovered_pieces(*result.instance, tree, options.most_candidates, context, result.counters);
+    if (!found) return found.error();
+    pieces = std::move(*found);
   }
   if (context.cancelled()) return cancelled;
   auto linked = link_pieces(*result.instance, pieces, context);
@@ -43,7 +46,9 @@ Result<Zone> zone_of_instance(std::shared_ptr<const Network> network, const zone
   {
     const zone::SiteTree tree(instance, context);
     if (context.cancelled()) return cancelled;
-    pieces = zone::uncovered_pieces(instance, tree, context, counters);
+    auto found = zone::uncovered_pieces(instance, tree, 0, context, counters);
+    if (!found) return found.error();
+    pieces = std::move(*found);
   }
   if (context.cancelled()) return cancelled;
   auto linked = zone::link_pieces(instance, pieces, context);
@@ -56,7 +61,7 @@ Result<Zone> zone_of_instance(std::shared_ptr<const Network> network, const zone
 }  // namespace
 
 Result<Zone> compute_zone(std::shared_ptr<const Network> network, const ZoneOptions& options, const Context& context) {
-  auto found = zone::zone_rings(*network, options.radius, context);
+  auto found = zone::zone_rings(*network, options, context);
   if (!found) return found.error();
   return ZoneAssembly::finish(std::move(network), *found->instance, std::move(found->rings), found->resolution,
                               found->counters, context);

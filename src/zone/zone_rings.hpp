@@ -17,6 +17,6 @@ struct ZoneRings {
 };
 
 /// Errors as compute_zone.
-Result<ZoneRings> zone_rings(const Network& network, double radius, const Context& context);
+Result<ZoneRings> zone_rings(const Network& network, const ZoneOptions& options, const Context& context);
 
 }  // namespace krepl::zone
