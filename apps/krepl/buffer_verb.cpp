@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 
 #include "input/network_reader.hpp"
 #include "krepl/curve_zone.hpp"
@@ -21,7 +22,7 @@ namespace {
 struct BufferOptions {
   input::NetworkRequest input;
   std::string output, radius, max_error, format, engine = "auto";
-  bool no_pieces = false, separate = false;
+  bool no_pieces = false, separate = false, bands = false;
   ShapeArguments shape;
   FeatureOptions features;
 };
@@ -43,6 +44,15 @@ Status check_engine(const std::string& engine) {
 
 bool wants_diagram(const std::string& engine, const std::vector<double>& radii, const Network& network) {
   return engine == "auto" ? diagram_pays(network, radii) : engine == "voronoi";
+}
+
+Status check_bands(const BufferOptions& options, const BufferPlan& plan) {
+  const auto usage = [](const char* what, const char* remedy) { return Error{ErrorCode::usage, what, "", remedy}; };
+  if (needs_features(options.features, options.radius))
+    return usage("--bands does not go with radii or zones of single features", "leave one of them out");
+  if (!is_plain(plan.shape, plan.radii))
+    return usage("bands have round caps and joins, both sides and positive radii", "leave the other options out");
+  return std::monostate{};
 }
 
 Result<BufferPlan> make_plan(const BufferOptions& options) {
@@ -75,6 +85,11 @@ Result<BufferPlan> make_plan(const BufferOptions& options) {
   plan.format = *format;
   plan.file.pieces = !options.no_pieces;
   plan.file.separate = options.separate;
+  plan.file.bands = options.bands;
+  if (options.bands) {
+    if (Status possible = check_bands(options, plan); !possible) return possible.error();
+    std::sort(plan.radii.begin(), plan.radii.end());
+  }
   return plan;
 }
 
@@ -113,7 +128,16 @@ void tell_sweep(const SweepCounters& c, Session& session) {
                              c.decisions - c.decided_in_quadruple - c.decided_in_320_bits, c.decided_in_quadruple, c.decided_in_320_bits, c.ties));
 }
 
+Result<Zone> zone_by_either(const input::NetworkData& data, double radius, Session& session) {
+  AutoCounters counters;
+  Result<Zone> zone = compute_zone_auto(data.network, {radius}, session.context("computing"), &counters);
+  if (!counters.given_up.empty()) session.detail("intervals  given up: " + counters.given_up);
+  if (counters.by_sweep) tell_sweep(counters.sweep, session);
+  return zone;
+}
+
 Result<Zone> zone_without_diagram(const input::NetworkData& data, const BufferPlan& plan, double radius, Session& session) {
+  if (plan.engine == "auto") return zone_by_either(data, radius, session);
   if (plan.engine != "sweep") return compute_zone(data.network, {radius}, session.context("computing"));
   SweepCounters counters;
   Result<Zone> zone = compute_zone_by_sweep(data.network, {radius}, session.context("computing"), &counters);
@@ -127,7 +151,8 @@ std::string summary_line(const Network& network, const std::vector<Zone>& zones,
   for (const Zone& zone : zones) {
     std::size_t arcs = 0;
     for (std::uint32_t e = 0; e < zone.piece_count(); ++e) arcs += zone.piece(e).kind == Zone::Kind::arc ? 1 : 0;
-    text += fmt::format("; radius {}: {} rings, {} holes, {} arcs, area {:.10g}", zone.signed_radius(), zone.ring_count(),
+    const std::string inner = zone.inner_radius() > 0 ? fmt::format("{} to ", zone.inner_radius()) : "";
+    text += fmt::format("; radius {}: {} rings, {} holes, {} arcs, area {:.10g}", inner + fmt::format("{}", zone.signed_radius()), zone.ring_count(),
                         zone.hole_count(), arcs, zone.area());
   }
   return text + fmt::format("; {:.3f} s", seconds);
@@ -135,7 +160,9 @@ std::string summary_line(const Network& network, const std::vector<Zone>& zones,
 
 Result<std::vector<Zone>> zones_from_diagram(const input::NetworkData& data, const BufferPlan& plan, Session& session) {
   Stopwatch watch;
-  const Result<VoronoiDiagram> diagram = VoronoiDiagram::build(data.network, session.context("diagram"));
+  VoronoiOptions limits;
+  if (plan.engine == "auto") limits.most_candidates = diagram_budget(*data.network, plan.radii.size());
+  const Result<VoronoiDiagram> diagram = VoronoiDiagram::build(data.network, session.context("diagram"), limits);
   if (!diagram) return diagram.error();
   tell_diagram(*diagram, watch.seconds(), session);
   Stopwatch extracting;
@@ -163,7 +190,7 @@ Result<std::vector<Zone>> compute_zones(const input::NetworkData& data, const Bu
   if (wants_diagram(plan.engine, plan.radii, *data.network)) {
     Result<std::vector<Zone>> zones = zones_from_diagram(data, plan, session);
     if (zones.ok() || plan.engine == "voronoi" || zones.error().code != ErrorCode::computation) return zones;
-    session.detail("diagram    " + zones.error().text());  // auto: the other engine needs none
+    session.detail("diagram    given up: " + zones.error().text());  // auto: the other engines need none
   }
   std::vector<Zone> zones;
   for (double radius : plan.radii) {
@@ -174,6 +201,17 @@ Result<std::vector<Zone>> compute_zones(const input::NetworkData& data, const Bu
     zones.push_back(std::move(*zone));
   }
   return zones;
+}
+
+/// In place of each zone but the first, what it adds to the one before.
+Result<std::vector<Zone>> bands_of(const std::vector<Zone>& zones, Session& session) {
+  std::vector<Zone> bands{zones.front()};
+  for (std::size_t i = 1; i < zones.size(); ++i) {
+    Result<Zone> band = zone_band(zones[i - 1], zones[i], session.context("bands"));
+    if (!band) return band.error();
+    bands.push_back(std::move(*band));
+  }
+  return bands;
 }
 
 int run_buffer(const BufferOptions& options, Session& session) {
@@ -200,6 +238,7 @@ int run_buffer(const BufferOptions& options, Session& session) {
   Result<std::vector<Zone>> zones =
       is_plain(plan->shape, plan->radii) ? compute_zones(*data, *plan, session)
                                          : shaped_zones(data->network, plan->radii, plan->shape, in_name, session);
+  if (zones.ok() && plan->file.bands) zones = bands_of(*zones, session);
   if (!zones) return session.fail(in_name, zones.error());
 
   Stopwatch writing;
@@ -237,6 +276,8 @@ void add_buffer_verb(Verb& program, Session& session) {
   add_shape_options(verb, options->shape);
   verb.add_option("--max-error", options->max_error, "Formats without arcs: largest deviation (default: radius / 1000)")
       .type_name("LENGTH");
+  verb.add_flag("--bands", options->bands,
+                "Several radii: the bands between them, each zone less the one before (field inner: where a band begins)");
   verb.add_flag("--separate", options->separate, "A feature for each polygon, not for each radius");
   verb.add_flag("--no-pieces", options->no_pieces, "GeoPackage: no layer of boundary pieces with their origin");
   verb.add_option("--engine", options->engine, "Algorithm: auto, intervals, voronoi, sweep").type_name("NAME");

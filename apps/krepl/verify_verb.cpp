@@ -35,12 +35,35 @@ struct VerifyOptions {
   std::string radius, max_error, tool, control_point, ceiling, max_slope;
   TerrainOptions terrain;
   ShapeArguments shape;
+  bool bands = false;
   std::uint64_t samples = 0;
   FeatureOptions features;
 };
 
-/// Polygons by radius: a file may hold several zones, and a zone may be spread over several features.
-using ZonesByRadius = std::map<double, std::vector<input::ResultPolygon>>;
+struct ZoneOfRadius {
+  std::vector<input::ResultPolygon> polygons;
+  double inner = 0;  // where a band begins
+};
+/// By radius: a file may hold several zones, and a zone may be spread over several features.
+using ZonesByRadius = std::map<double, ZoneOfRadius>;
+
+/// What the asked-for radii and --bands say of zones that do not tell it themselves.
+Status tell_bands(std::vector<input::ResultZone>& zones, std::vector<double> asked) {
+  std::sort(asked.begin(), asked.end());
+  const bool told = std::any_of(zones.begin(), zones.end(), [](const auto& zone) { return zone.radius.has_value(); });
+  if (!told && zones.size() != asked.size())
+    return Error{ErrorCode::usage, fmt::format("the result holds {} bands that do not tell their radii", zones.size()), "",
+                 "give as many with --radius"};
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    if (!told) zones[i].radius = asked[i];
+    if (zones[i].inner || !zones[i].radius) continue;
+    const auto at = std::find(asked.begin(), asked.end(), *zones[i].radius);
+    if (at == asked.end())
+      return Error{ErrorCode::usage, "the result does not tell where its bands begin", "", "give all radii with --radius"};
+    zones[i].inner = at == asked.begin() ? 0 : *(at - 1);
+  }
+  return std::monostate{};
+}
 
 Result<ZonesByRadius> group(std::vector<input::ResultZone> zones, const std::vector<double>& asked) {
   ZonesByRadius groups;
@@ -52,7 +75,8 @@ Result<ZonesByRadius> group(std::vector<input::ResultZone> zones, const std::vec
       return Error{ErrorCode::input,
                    fmt::format("the result holds a zone of radius {}, which --radius does not name", radius), "",
                    "give the radius that the result was made with"};
-    auto& polygons = groups[radius];
+    auto& [polygons, inner] = groups[radius];
+    inner = zone.inner.value_or(0);
     std::move(zone.polygons.begin(), zone.polygons.end(), std::back_inserter(polygons));
   }
   for (const double radius : asked)
@@ -91,8 +115,9 @@ void print_checks(Session& session, const std::vector<verify::Check>& checks) {
 namespace {
 
 void print(Session& session, const verify::ZoneReport& report) {
-  session.summary(fmt::format("zone of radius {}: {} polygons, {} holes, {} pieces, {} of them arcs", report.radius,
-                              report.polygons, report.holes, report.pieces, report.arcs));
+  const std::string inner = report.inner > 0 ? fmt::format("{} to ", report.inner) : "";
+  session.summary(fmt::format("{} of radius {}{}: {} polygons, {} holes, {} pieces, {} of them arcs",
+                              report.inner > 0 ? "band" : "zone", inner, report.radius, report.polygons, report.holes, report.pieces, report.arcs));
   session.summary(fmt::format("area {:.15g}, length {:.15g}, S {:.6g}, tolerance {:.2g}", report.area, report.perimeter,
                               report.scale, report.tolerance));
   print_checks(session, report.checks);
@@ -129,7 +154,7 @@ ZonesByRadius as_one_zone(std::vector<input::ResultZone> zones, const std::vecto
   for (const verify::InputPart& part : parts) largest = std::max(largest, part.radius);
   ZonesByRadius all;
   for (input::ResultZone& zone : zones)
-    std::move(zone.polygons.begin(), zone.polygons.end(), std::back_inserter(all[largest]));
+    std::move(zone.polygons.begin(), zone.polygons.end(), std::back_inserter(all[largest].polygons));
   return all;
 }
 
@@ -155,6 +180,12 @@ int verify_zones(const VerifyOptions& options, Session& session) {
     return verify_features({options.result, options.input, f, radii, check.max_error, options.samples}, session);
   auto zones = input::read_zones(options.result, input::EmptyZones::keep);
   if (!zones) return session.fail(options.result, zones.error());
+  if (options.bands) {
+    if (varied || !is_plain(*shape, radii))
+      return session.fail("", {ErrorCode::usage, "bands have round caps and joins, both sides and positive radii", "",
+                               "leave the other options out"});
+    if (Status told = tell_bands(*zones, radii); !told) return session.fail(options.result, told.error());
+  }
   verify::InputRequest request = options.input;
   request.keep_arcs = is_plain(*shape, radii) && !varied;
   auto parts = verify::read_parts(request, session.context("reading"));
@@ -171,19 +202,19 @@ int verify_zones(const VerifyOptions& options, Session& session) {
                                              "give the --arc-error that the result was made with"});
   const verify::Obstacle obstacle(*parts, groups->rbegin()->first);
   int status = 0;
-  for (const auto& [radius, polygons] : *groups) {
-    check.radius = radius;
+  for (const auto& [radius, zone] : *groups) {
+    check.radius = radius, check.inner = zone.inner;
     // Parabolas in the border of a one-sided zone are chords (docs/shape.md).
     if (shape->side != Side::both && options.max_error.empty()) check.max_error = 2e-6 * radius;
     const bool plain = is_plain(*shape, {radius});
-    auto report = plain ? verify::check_zone(polygons, obstacle, check, session.context("checking"))
-                        : verify::check_shape(polygons, *parts, shape_question(*shape, radius), check,
+    auto report = plain ? verify::check_zone(zone.polygons, obstacle, check, session.context("checking"))
+                        : verify::check_shape(zone.polygons, *parts, shape_question(*shape, radius), check,
                                               session.context("checking"));
     session.finish_progress();
     if (!report) return session.fail(options.result, report.error());
     print(session, *report);
     if (report->ok()) continue;
-    Error error = violation("zone", radius, report->checks);
+    Error error = violation(zone.inner > 0 ? "band" : "zone", radius, report->checks);
     if (report->arcs == 0 && check.max_error == 0) error.remedy = "for a format without arcs give --max-error";
     status = session.fail(options.result, error);
   }
@@ -358,6 +389,7 @@ void add_verify_verb(Verb& program, Session& session) {
                   "seconds' worth)")
       .type_name("N");
   add_shape_options(verb, options->shape);
+  verb.add_flag("--bands", options->bands, "The result was made with --bands: needed where it does not tell so (WKT, WKB)");
   verb.add_option("--max-error", options->max_error,
                   "Deviation allowed to a format without arcs, or depth to a tool path (default: none)")
       .type_name("E");

@@ -79,6 +79,8 @@ class Zone {
   double signed_radius() const { return inward_ ? -radius_ : radius_; }
   /// The smallest.
   double least_radius() const;
+  /// Of a band (zone_band): what is no farther than this from the network is left out. 0: a whole zone.
+  double inner_radius() const { return inner_radius_; }
   /// Largest of radius and extent: the S of the accuracy contract.
   double scale() const;
   const Network& network() const { return *network_; }
@@ -89,6 +91,8 @@ class Zone {
 
   std::size_t piece_count() const { return vertex_.size(); }
   Piece piece(std::uint32_t e) const;
+  /// True along a band's inner border: the piece lies at inner_radius() from the network.
+  bool is_inner(std::uint32_t e) const { return e >= outer_pieces_; }
   std::size_t ring_count() const { return ring_begin_.size() - 1; }
   std::uint32_t ring_begin(std::uint32_t r) const { return ring_begin_[r]; }
   bool ring_is_hole(std::uint32_t r) const { return ring_is_hole_[r]; }
@@ -109,7 +113,8 @@ class Zone {
   Piece local_piece(std::uint32_t e) const;
   double ring_area(std::uint32_t r) const;
 
-  double radius_ = 0;
+  double radius_ = 0, inner_radius_ = 0;
+  std::uint32_t outer_pieces_ = ~std::uint32_t{0};  // a band's inner border begins there
   bool inward_ = false;
   std::shared_ptr<const Network> network_;
   std::shared_ptr<const CurveNetwork> curves_;
@@ -127,6 +132,10 @@ class Zone {
 struct ZoneOptions {
   /// Radius of the disk in the input's unit: finite and positive.
   double radius = 0;
+  /// Where elements meet more cigars than this in the mean (and 2^20 in all), the computation is given up with
+  /// ErrorCode::computation; 0: never. Ordinary are 1 to 6; thousands on a finely digitised circle of nearly the radius, where the
+  /// search is quadratic. Threads do not change what is given up.
+  std::uint64_t most_candidates = 0;
 };
 
 /// The zone of a network by the covered-intervals engine (thesis section 3.3 in a robust form; docs/zone.md).
@@ -144,5 +153,11 @@ Result<Zone> compute_zone(std::shared_ptr<const Network> network, const ZoneOpti
 /// polygon is filled whole. Errors also: not one radius for each part.
 Result<Zone> compute_zone(std::shared_ptr<const Network> network, std::span<const double> part_radii,
                           const Context& context = {});
+
+/// The band between two zones of one network: what of the outer one the inner one leaves. Its boundary consists of theirs,
+/// bit for bit; the inner one's pieces stand behind the outer one's, run the other way round, and their arcs clockwise.
+/// Errors: usage for zones of different networks, with radii of parts, shrunk, one-sided, with other caps than round, or
+/// with radii closer than 2^-36 S. O(pieces + rings log pieces).
+Result<Zone> zone_band(const Zone& inner, const Zone& outer, const Context& context = {});
 
 }  // namespace krepl

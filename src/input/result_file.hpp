@@ -30,6 +30,7 @@ struct ResultPolygon {
 };
 struct ResultZone {
   std::optional<double> radius;  ///< from the file's field `radius`, where it has one
+  std::optional<double> inner;   ///< of bands: from the field `inner`
   std::vector<ResultPolygon> polygons;
   std::string crs;               ///< name of the coordinate system, empty if unknown
 };

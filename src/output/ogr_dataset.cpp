@@ -25,7 +25,7 @@ Status OgrDataset::create(const std::string& path) {
   return std::monostate{};
 }
 
-Result<OGRLayer*> OgrDataset::create_layer(const char* name, OGRwkbGeometryType type, Fields fields,
+Result<OGRLayer*> OgrDataset::create_layer(const char* name, OGRwkbGeometryType type, const Fields& fields,
                                            std::vector<std::string> options) {
   messages_.clear();
   if (driver_ == "ESRI Shapefile") options.push_back("DBF_DATE_LAST_UPDATE=" + file_date("%Y-%m-%d"));

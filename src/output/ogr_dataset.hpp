@@ -20,14 +20,14 @@ namespace krepl::output {
 /// path is that of an AtomicFile, so nothing is flushed before the end.
 class OgrDataset {
  public:
-  using Fields = std::initializer_list<std::pair<const char*, OGRFieldType>>;
+  using Fields = std::vector<std::pair<const char*, OGRFieldType>>;
 
   /// `crs` is WKT, empty for none.
   OgrDataset(std::string driver, const std::string& crs);
 
   Status create(const std::string& path);
   /// `options` as NAME=VALUE. A driver that takes no fields (DXF) gets none; has_fields() tells afterwards.
-  Result<OGRLayer*> create_layer(const char* name, OGRwkbGeometryType type, Fields fields,
+  Result<OGRLayer*> create_layer(const char* name, OGRwkbGeometryType type, const Fields& fields,
                                  std::vector<std::string> options = {});
   Status add(OGRLayer& layer, OGRFeature& feature);
   /// Commits and closes.

@@ -1,4 +1,5 @@
-// DXF: every ring a closed LWPOLYLINE with true arcs, on layers ZONE_<radius> and ZONE_<radius>_HOLES.
+// DXF: every ring a closed LWPOLYLINE with true arcs, on layers ZONE_<radius> and ZONE_<radius>_HOLES; of bands
+// BAND_<inner radius>_<radius>.
 #include <fmt/format.h>
 
 #include "output/dxf_document.hpp"
@@ -23,29 +24,30 @@ std::vector<DxfDocument::Vertex> ring_vertices(const Zone& zone, std::uint32_t r
   return vertices;
 }
 
-std::string layer_name(const Zone& zone, bool hole) {
+std::string layer_name(const Zone& zone, bool band, bool hole) {
   if (zone.least_radius() < zone.radius()) return hole ? "ZONE_HOLES" : "ZONE";
+  if (band) return fmt::format("BAND_{}_{}{}", zone.inner_radius(), zone.radius(), hole ? "_HOLES" : "");
   return fmt::format("ZONE_{}{}", zone.signed_radius(), hole ? "_HOLES" : "");
 }
 
 }  // namespace
 
-WriteResult write_dxf(const std::string& path, std::span<const Zone> zones, const ZoneFileOptions&,
+WriteResult write_dxf(const std::string& path, std::span<const Zone> zones, const ZoneFileOptions& options,
                       const Context& context) {
   Result<OutputStream> stream = OutputStream::open(path);
   if (!stream) return stream.error();
   std::vector<std::string> layers;
   std::size_t rings = 0;
   for (const Zone& zone : zones) {
-    layers.push_back(layer_name(zone, false));
-    layers.push_back(layer_name(zone, true));
+    layers.push_back(layer_name(zone, options.bands, false));
+    layers.push_back(layer_name(zone, options.bands, true));
     rings += zone.ring_count();
   }
   DxfDocument document(*stream, layers, rings);
   for (const Zone& zone : zones) {
     for (std::uint32_t ring = 0; ring < zone.ring_count(); ++ring) {
       if (context.cancelled()) return interrupted_while_writing();
-      document.put(ring_vertices(zone, ring), true, layer_name(zone, zone.ring_is_hole(ring)));
+      document.put(ring_vertices(zone, ring), true, layer_name(zone, options.bands, zone.ring_is_hole(ring)));
     }
   }
   document.finish();

@@ -46,13 +46,15 @@ void put_polygon(fmt::memory_buffer& text, const Zone& zone, std::uint32_t p, Li
   text.push_back(']');
 }
 
-Status write_feature(OutputStream& stream, const Zone& zone, const ZoneFeature& feature, bool single,
+Status write_feature(OutputStream& stream, const Zone& zone, const ZoneFeature& feature, const ZoneFileOptions& options,
                      Linearizer& linearizer, const Context& context) {
+  const bool single = options.separate;
   fmt::memory_buffer text;
   fmt::format_to(std::back_inserter(text),
-                 "{{\"type\": \"Feature\", \"properties\": {{\"radius\": {}, \"area\": {}, \"perimeter\": {}, "
+                 "{{\"type\": \"Feature\", \"properties\": {{\"radius\": {}, {}\"area\": {}, \"perimeter\": {}, "
                  "\"polygons\": {}, \"holes\": {}}}, \"geometry\": {{\"type\": \"{}\", \"coordinates\": ",
-                 feature.radius ? fmt::format("{}", *feature.radius) : "null", feature.area, feature.perimeter, feature.polygon_count, feature.holes,
+                 feature.radius ? fmt::format("{}", *feature.radius) : "null",
+                 options.bands ? fmt::format("\"inner\": {}, ", feature.inner_radius) : "", feature.area, feature.perimeter, feature.polygon_count, feature.holes,
                  single ? "Polygon" : "MultiPolygon");
   if (!single) text.push_back('[');
   for (std::uint32_t i = 0; i < feature.polygon_count; ++i) {
@@ -83,7 +85,7 @@ WriteResult write_geojson(const std::string& path, std::span<const Zone> zones, 
     for (const ZoneFeature& feature : zone_features(zone, options.separate)) {
       if (!first) stream->write(",\n");
       first = false;
-      Status written = write_feature(*stream, zone, feature, options.separate, linearizer, context);
+      Status written = write_feature(*stream, zone, feature, options, linearizer, context);
       if (!written) return written.error();
     }
     report.deviation = std::max(*report.deviation, linearizer.deviation());

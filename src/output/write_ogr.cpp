@@ -61,6 +61,7 @@ Status OgrWriter::write_zone(OGRLayer& layer, const Zone& zone, bool curves) {
     OGRFeature feature(layer.GetLayerDefn());
     if (dataset_.has_fields()) {
       if (from.radius) feature.SetField("radius", *from.radius);
+      if (options_.bands) feature.SetField("inner", from.inner_radius);
       feature.SetField("area", from.area);
       feature.SetField("perimeter", from.perimeter);
       feature.SetField("polygons", static_cast<int>(from.polygon_count));
@@ -84,8 +85,10 @@ Status OgrWriter::write_zone_layer(std::span<const Zone> zones) {
   std::vector<std::string> layer_options;
   // Its index would reorder the features; with a feature per radius there is nothing to search.
   if (driver_ == "FlatGeobuf" && !options_.separate) layer_options = {"SPATIAL_INDEX=NO"};
-  Result<OGRLayer*> layer = dataset_.create_layer("zone", type, {{"radius", OFTReal}, {"area", OFTReal}, {"perimeter", OFTReal},
-                                                  {"polygons", OFTInteger}, {"holes", OFTInteger}}, layer_options);
+  OgrDataset::Fields fields{
+      {"radius", OFTReal}, {"area", OFTReal}, {"perimeter", OFTReal}, {"polygons", OFTInteger}, {"holes", OFTInteger}};
+  if (options_.bands) fields.insert(fields.begin() + 1, {"inner", OFTReal});
+  Result<OGRLayer*> layer = dataset_.create_layer("zone", type, fields, layer_options);
   if (!layer) return layer.error();
   for (const Zone& zone : zones) {
     if (Status written = write_zone(**layer, zone, curves); !written) return written;
@@ -114,7 +117,10 @@ Status OgrWriter::add_piece(OGRLayer& layer, const Zone& zone, std::uint32_t pie
   Zone::Piece from = zone.piece(piece);
   const Network::Source source = source_of(zone, from);
   OGRFeature feature(layer.GetLayerDefn());
-  feature.SetField("radius", zone.signed_radius() < 0 ? -from.radius : from.from_arc ? zone.radius() : from.radius);
+  feature.SetField("radius", zone.signed_radius() < 0 ? -from.radius
+                             : zone.is_inner(piece)   ? zone.inner_radius()
+                             : from.from_arc          ? zone.radius()
+                                                      : from.radius);
   feature.SetField("kind", kind_of(from));
   feature.SetField("source_feature", static_cast<GIntBig>(source.feature));
   feature.SetField("source_part", static_cast<GIntBig>(source.part));

@@ -32,8 +32,9 @@ void put_ring(SvgText& text, const Zone& zone, std::uint32_t ring) {
   text.put("Z");
 }
 
-Status put_zone(SvgText& text, OutputStream& stream, const Zone& zone, const Context& context) {
-  text.format("<g class=\"zone\" data-radius=\"{}\" data-area=\"{}\">\n", zone.signed_radius(), zone.area());
+Status put_zone(SvgText& text, OutputStream& stream, const Zone& zone, bool band, const Context& context) {
+  text.format("<g class=\"zone\" data-radius=\"{}\"{} data-area=\"{}\">\n", zone.signed_radius(),
+              band ? fmt::format(" data-inner=\"{}\"", zone.inner_radius()) : "", zone.area());
   for (std::uint32_t p = 0; p < zone.polygon_count(); ++p) {
     if (context.cancelled()) return interrupted_while_writing();
     Zone::Polygon polygon = zone.polygon(p);
@@ -126,7 +127,7 @@ void put_head(SvgText& text, std::span<const Zone> zones, Point origin) {
 
 }  // namespace
 
-WriteResult write_svg(const std::string& path, std::span<const Zone> zones, const ZoneFileOptions&,
+WriteResult write_svg(const std::string& path, std::span<const Zone> zones, const ZoneFileOptions& options,
                       const Context& context) {
   Result<OutputStream> stream = OutputStream::open(path);
   if (!stream) return stream.error();
@@ -139,7 +140,7 @@ WriteResult write_svg(const std::string& path, std::span<const Zone> zones, cons
   SvgText text(origin);
   put_head(text, zones, origin);
   for (const Zone* zone : order) {
-    if (Status put = put_zone(text, *stream, *zone, context); !put) return put.error();
+    if (Status put = put_zone(text, *stream, *zone, options.bands, context); !put) return put.error();
   }
   std::vector<const Network*> drawn;  // zones of one network follow each other
   for (const Zone& zone : zones) {

@@ -118,7 +118,7 @@ std::vector<ZoneFeature> zone_features(const Zone& zone, bool separate) {
   auto polygons = static_cast<std::uint32_t>(zone.polygon_count());
   std::optional<double> radius;
   if (zone.least_radius() == zone.radius()) radius = zone.signed_radius();
-  if (!separate) return {{0, polygons, radius, zone.area(), zone.perimeter(), zone.hole_count()}};
+  if (!separate) return {{0, polygons, radius, zone.area(), zone.perimeter(), zone.hole_count(), zone.inner_radius()}};
   std::vector<ZoneFeature> features;
   features.reserve(polygons);
   for (std::uint32_t p = 0; p < polygons; ++p) {
@@ -129,7 +129,7 @@ std::vector<ZoneFeature> zone_features(const Zone& zone, bool separate) {
       total.area += measure.area;
       total.length += measure.length;
     }
-    features.push_back({p, 1, radius, total.area, total.length, polygon.holes.size()});
+    features.push_back({p, 1, radius, total.area, total.length, polygon.holes.size(), zone.inner_radius()});
   }
   return features;
 }

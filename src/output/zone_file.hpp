@@ -30,6 +30,7 @@ struct ZoneFileOptions {
   double max_error = 0;  ///< formats without curves: largest deviation; 0: a thousandth of the radius
   bool pieces = true;    ///< GeoPackage: a second layer with one curve per boundary piece and where it comes from
   bool separate = false; ///< one feature (WKT: line) per polygon, not per radius
+  bool bands = false;    ///< the zones are bands (zone_band): features tell their inner radius too
 };
 
 struct ZoneFileReport {

@@ -22,6 +22,7 @@ struct ZoneFeature {
   std::optional<double> radius;  ///< none where parts of the input have radii of their own
   double area = 0, perimeter = 0;
   std::uint64_t holes = 0;
+  double inner_radius = 0;  ///< 0: a whole zone
 };
 
 /// What a zone becomes in a file: one feature, or one a polygon.

@@ -21,7 +21,10 @@ class Strips {
     const Real cost = 50 + Real(cigars) * std::min(Real(1), 2 * zone.radius / (high - low) + 1e-3L);
     const Real count = std::clamp(zone.effort * 2e7L / cost, 100.0L, std::max(100.0L, zone.effort * 20'000.0L));
     std::vector<Real> cuts{low, high};
-    if (cigars <= most_cigars_to_cut_at) zone.obstacle.add_ends(zone.radius, cuts);
+    if (cigars <= most_cigars_to_cut_at) {
+      zone.obstacle.add_ends(zone.radius, cuts);
+      if (zone.inner > 0) zone.obstacle.add_ends(zone.inner, cuts);
+    }
     std::sort(cuts.begin(), cuts.end());
     cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
     edges_.push_back(low);
@@ -52,8 +55,10 @@ class Strips {
 /// Lengths inside the zone on two lines of each strip, from the input alone.
 std::vector<Real> input_lengths(const ZoneCase& zone, const Strips& strips) {
   std::vector<Real> lengths(2 * strips.count());
-  tally_all(zone.context, lengths.size(),
-            [&](std::size_t i, Tally&) { lengths[i] = zone.obstacle.section(strips.line(i / 2, i % 2), zone.radius); });
+  tally_all(zone.context, lengths.size(), [&](std::size_t i, Tally&) {
+    const Real y = strips.line(i / 2, i % 2);
+    lengths[i] = zone.obstacle.section(y, zone.radius) - (zone.inner > 0 ? zone.obstacle.section(y, zone.inner) : 0);
+  });
   return lengths;
 }
 
@@ -67,8 +72,8 @@ Check compare_sections(const ZoneCase& zone, const Strips& strips, const std::ve
   });
   Real integral = 0;
   for (std::size_t i = 0; i < off.size(); ++i) integral += off[i] * strips.height(i / 2) / 2;
-  const Real limit =
-      4 * (zone.deviation * zone.boundary.perimeter() + strips.tallest() * std::sqrt(8 * zone.radius * zone.deviation));
+  const Real grazing = std::sqrt(8 * zone.radius * zone.deviation) + std::sqrt(8 * zone.inner * zone.deviation);
+  const Real limit = 4 * (zone.deviation * zone.boundary.perimeter() + strips.tallest() * grazing);
   char note[80];
   std::snprintf(note, sizeof note, "worst line differs by %.3Lg", tally.worst);
   tally.worst = integral;

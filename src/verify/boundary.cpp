@@ -32,7 +32,7 @@ Real sweep_of(Vec a, Vec m, Vec b, Vec c, Real r) {
 }  // namespace
 
 std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle,
-                                     Real radius, Real tolerance, ArcFit& fit) {
+                                     Real radius, Real inner, Real tolerance, ArcFit& fit) {
   std::vector<Curve> curves;
   std::uint32_t ring = 0;
   const auto& vertices = obstacle.vertices();
@@ -43,10 +43,12 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
     Real best = HUGE_VALL;
     vertices.for_each_in(around.grown(radius + tolerance), [&](std::uint32_t i) {
       const Vec v = vertices.items()[i].at;
-      Real worst = 0;
-      const Real r = radius - vertices.items()[i].inset;
-      for (const Vec& q : p) worst = std::max(worst, std::abs(distance(q, v) - r));
-      if (worst < best) best = worst, centre = v, own_radius = r;
+      for (const Real offset : {radius, inner}) {
+        Real worst = 0;
+        const Real r = offset - vertices.items()[i].inset;
+        for (const Vec& q : p) worst = std::max(worst, std::abs(distance(q, v) - r));
+        if (r > 0 && worst < best) best = worst, centre = v, own_radius = r;
+      }
     });
     return best;
   };
@@ -61,7 +63,8 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
       const auto& own = segments.items()[i].arc;
       if (!own) return;
       const Real r = radius - segments.items()[i].inset;
-      for (const Real side : {r, -r}) {
+      for (const Real side : {r, -r, inner, -inner}) {
+        if (side == 0) continue;
         Real worst = 0;
         for (const Vec& q : p) worst = std::max(worst, std::abs(own->off_circle(q) - side));
         if (worst >= best || own->r + side <= 0) continue;
@@ -122,8 +125,8 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
 }
 
 Boundary::Boundary(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle, Real radius,
-                   Real tolerance)
-    : curves_(resolve(polygons, obstacle, radius, tolerance, arc_fit_)) {
+                   Real tolerance, Real inner)
+    : curves_(resolve(polygons, obstacle, radius, inner, tolerance, arc_fit_)) {
   make_rings(polygons);
   make_parts();
 }

@@ -45,9 +45,10 @@ struct ArcFit {
 /// The boundary of a result as found in a file.
 class Boundary {
  public:
-  /// `radius` and `tolerance` select the input vertex that an arc is centred at. The centre is taken from the input,
+  /// `radius`, `tolerance` and `inner` (of a band, else 0) select the input vertex that an arc is centred at. The centre is taken from the input,
   /// since three points of a short arc determine it only badly. An arc that has none keeps the circle of its points.
-  Boundary(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle, Real radius, Real tolerance);
+  Boundary(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle, Real radius, Real tolerance,
+           Real inner = 0);
 
   struct Ring {
     std::uint32_t first = 0, last = 0;  // curves
@@ -87,7 +88,7 @@ class Boundary {
     Real x_at(Real y) const;
   };
   static std::vector<Curve> resolve(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle,
-                                    Real radius, Real tolerance, ArcFit& fit);
+                                    Real radius, Real inner, Real tolerance, ArcFit& fit);
   void make_rings(const std::vector<input::ResultPolygon>& polygons);
   void make_parts();
   void add_parts_of(const CircularArc& arc, std::uint32_t ring, std::vector<std::pair<Real, Real>>& ranges);

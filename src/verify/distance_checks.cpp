@@ -53,8 +53,10 @@ Check check_distances(const ZoneCase& zone) {
   const Tally tally = tally_all(zone.context, curves.size(), [&](std::size_t i, Tally& t) {
     for (std::size_t k = 0; k <= inner; ++k) {
       const Vec p = k == 0 ? curves[i].a : curves[i].at(Real(k) / (inner + 1));
-      // The boundary of a zone is at distance R of the lines and never inside a polygon.
-      const Real off = std::abs(zone.obstacle.distance(p) - zone.radius);
+      // The boundary of a zone is at distance R of the lines and never inside a polygon; a band has another at the inner radius.
+      const Real d = zone.obstacle.distance(p);
+      Real off = std::abs(d - zone.radius);
+      if (zone.inner > 0) off = std::min(off, std::abs(d - zone.inner));
       t.add(off, zone.deviation, p);
       if (off <= zone.deviation && zone.obstacle.has_polygons() && zone.obstacle.in_polygon(p))
         t.add(zone.radius, zone.deviation, p);
@@ -71,13 +73,17 @@ Check check_membership(const ZoneCase& zone) {
   Tally tally = tally_all(zone.context, zone.samples, [&](std::size_t i, Tally& t) {
     const Vec p = sample_point(zone, region, i);
     const Real d = zone.obstacle.distance(p);
-    const bool inside = d < zone.radius - zone.deviation || zone.obstacle.in_polygon(p);
-    if (!inside && d <= zone.radius + zone.deviation) {
+    const bool in_polygon = zone.obstacle.in_polygon(p);
+    const auto is_near = [&](Real radius) { return !in_polygon && std::abs(d - radius) <= zone.deviation; };
+    if (is_near(zone.radius) || (zone.inner > 0 && is_near(zone.inner))) {
       undecided.fetch_add(1, std::memory_order_relaxed);
       return;
     }
+    const bool hollow = zone.inner > 0 && (in_polygon || d < zone.inner);
+    const bool inside = !hollow && (in_polygon || d < zone.radius);
     const bool right = zone.boundary.winding(p) == (inside ? 1 : 0);
-    t.add(right ? 0 : std::abs(d - zone.radius), 0, p);
+    const Real off = std::min(std::abs(d - zone.radius), zone.inner > 0 ? std::abs(d - zone.inner) : zone.radius);
+    t.add(right ? 0 : off, 0, p);
   });
   Check check = tally.check("membership of points", 0);
   if (undecided > 0) check.note = std::to_string(undecided.load()) + " too near the boundary to tell";
@@ -85,34 +91,38 @@ Check check_membership(const ZoneCase& zone) {
 }
 
 // A point at distance R from its own element, moved out by 2 deviations, is outside if nothing else is nearer; it was
-// inside before, so the boundary must pass between the two.
+// inside before, so the boundary must pass between the two. The same holds at the inner radius of a band.
 Check check_coverage(const ZoneCase& zone) {
   const auto& segments = zone.obstacle.segments().items();
   const std::size_t each = per_item(segments.size(), 5e5, 1, 64, zone.effort);
   const Real step = 2 * zone.deviation;
-  const auto probe = [&](Vec foot, Vec outward, Real r, Tally& t) {
-    const Vec p = foot + (r + step) * outward;
-    if (zone.obstacle.distance(p) < zone.radius + step / 2) return;
+  const auto probe_at = [&](Vec foot, Vec outward, Real radius, Real inset, Tally& t) {
+    const Vec p = foot + (radius - inset + step) * outward;
+    if (zone.obstacle.distance(p) < radius + step / 2) return;
     if (zone.obstacle.has_polygons() && zone.obstacle.in_polygon(p)) return;
     const Real off = zone.boundary.curves().nearest(p).distance;
     t.add(std::max(Real(0), off - step), zone.deviation, p);
   };
+  const auto probe = [&](Vec foot, Vec outward, Real inset, Tally& t) {
+    probe_at(foot, outward, zone.radius, inset, t);
+    if (zone.inner > 0) probe_at(foot, outward, zone.inner, inset, t);
+  };
   const Tally tally = tally_all(zone.context, segments.size(), [&](std::size_t i, Tally& t) {
     Random random(zone.seed + 1, i);
     const Vec a = segments[i].a, b = segments[i].b;
-    const Real l = distance(a, b), r = zone.radius - segments[i].inset;
+    const Real l = distance(a, b), inset = segments[i].inset;
     for (std::size_t k = 0; k < each; ++k) {
       if (segments[i].arc) {
         const Real fraction = random.unit();
         const Vec foot = segments[i].arc->at(fraction), n = segments[i].arc->normal(fraction);
-        probe(foot, n, r, t), probe(foot, Real(-1) * n, r, t);
+        probe(foot, n, inset, t), probe(foot, Real(-1) * n, inset, t);
       } else if (l > 0) {
         const Vec n = (1 / l) * left_of(b - a);
         const Vec foot = a + random.unit() * (b - a);
-        probe(foot, n, r, t), probe(foot, Real(-1) * n, r, t);
+        probe(foot, n, inset, t), probe(foot, Real(-1) * n, inset, t);
       }
       const Real angle = 2 * pi * random.unit();
-      probe(k % 2 == 0 ? a : b, Vec(std::cos(angle), std::sin(angle)), r, t);
+      probe(k % 2 == 0 ? a : b, Vec(std::cos(angle), std::sin(angle)), inset, t);
     }
   });
   return tally.check("input's sides on the boundary", zone.deviation);

@@ -15,6 +15,7 @@ struct ZoneCase {
   const Obstacle& obstacle;
   const Boundary& boundary;
   Real radius;
+  Real inner;      ///< of a band, else 0
   Real tolerance;  ///< of true curves
   Real deviation;  ///< tolerance, and what a linear format was allowed
   std::uint64_t samples;

@@ -35,15 +35,17 @@ Result<MeasuredZone> measure(const std::vector<input::ResultPolygon>& polygons, 
                              const ZoneCheckOptions& options) {
   if (!(std::isfinite(options.radius) && options.radius > 0))
     return Error{ErrorCode::usage, "the radius must be a finite positive number", "", ""};
+  if (!(options.inner >= 0 && options.inner < options.radius))
+    return Error{ErrorCode::usage, "the inner radius of a band must be below its radius", "", ""};
   if (obstacle.segments().items().empty()) return Error{ErrorCode::input, "the input holds no line or point", "", ""};
   if (!finite(polygons)) return Error{ErrorCode::input, "the result has a coordinate that is not finite", "", ""};
 
   ZoneReport report;
-  report.radius = options.radius;
+  report.radius = options.radius, report.inner = options.inner;
   report.scale = double(std::max(Real(options.radius), obstacle.extent()));
   // What the contract promises, unless the coordinates themselves cannot express it.
   report.tolerance = double(std::max(Real(1e-9L) * report.scale, 64 * obstacle.resolution()));
-  Boundary boundary(polygons, obstacle, options.radius, report.tolerance);
+  Boundary boundary(polygons, obstacle, options.radius, report.tolerance, options.inner);
   report.area = double(boundary.area());
   report.perimeter = double(boundary.perimeter());
   report.polygons = polygons.size();
@@ -57,7 +59,7 @@ Result<MeasuredZone> measure(const std::vector<input::ResultPolygon>& polygons, 
 ZoneCase case_of(const MeasuredZone& measured, const Obstacle& obstacle, const ZoneCheckOptions& options,
                  const Context& context) {
   const Real tolerance = measured.report.tolerance;
-  return {obstacle,        measured.boundary, options.radius, tolerance, tolerance + options.max_error,
+  return {obstacle,        measured.boundary, options.radius, options.inner, tolerance, tolerance + options.max_error,
           measured.samples, options.effort,    options.seed,   context};
 }
 

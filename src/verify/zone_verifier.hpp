@@ -14,6 +14,8 @@ namespace krepl::verify {
 
 struct ZoneCheckOptions {
   double radius = 0;
+  /// Of a band, which leaves out what is no farther than this from the input; 0: a whole zone.
+  double inner = 0;
   /// Deviation that a linear format was allowed (absolute, 0 for true curves); added to every tolerance.
   double max_error = 0;
   /// Number of points whose membership is tested; 0: as many as take some seconds.
@@ -36,7 +38,7 @@ struct Check {
 };
 
 struct ZoneReport {
-  double radius = 0;
+  double radius = 0, inner = 0;
   double scale = 0;      ///< S of the accuracy contract: the largest of radius and extent
   double tolerance = 0;  ///< 1e-9 S, or 64 steps of the coordinates where that is coarser
   double area = 0;

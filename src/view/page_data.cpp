@@ -124,7 +124,9 @@ Result<Layer> zone_layer(const input::ResultZone& zone) {
   Layer layer;
   layer.role = "zone";
   layer.radius = zone.radius;
-  layer.name = zone.radius ? fmt::format("Zone, R = {}", *zone.radius) : "Zone";
+  layer.name = !zone.radius                  ? "Zone"
+               : zone.inner.value_or(0) > 0 ? fmt::format("Band, R = {} to {}", *zone.inner, *zone.radius)
+                                            : fmt::format("Zone, R = {}", *zone.radius);
   LayerBuilder builder(layer);
   for (const input::ResultPolygon& polygon : zone.polygons) {
     if (Status added = builder.add_ring(polygon.outer, false); !added) return added.error();

@@ -1,9 +1,12 @@
 #include "zone/assembly.hpp"
 
 #include <cmath>
+#include <cstdio>
+#include <string>
 
 #include "kernel/parallel.hpp"
 #include "krepl/curve_network.hpp"
+#include "zone/precision.hpp"
 
 namespace krepl {
 
@@ -35,7 +38,7 @@ Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, double
   zone.inward_ = distance < 0;
   zone.network_ = std::move(network);
   for (Zone::Piece& p : rings.piece) {
-    if (!p.from_arc) p.radius = zone.radius_;
+    if (p.radius == 0) p.radius = zone.radius_;
     zone.vertex_.push_back(p.start);
   }
   zone.shaped_ = std::move(rings.piece);
@@ -52,6 +55,74 @@ Result<Zone> ZoneAssembly::finish(std::shared_ptr<const CurveNetwork> curves, do
   auto zone = finish(curves->share_straight(), distance, std::move(rings), slack, counters, context);
   if (zone.ok()) zone->curves_ = std::move(curves);
   return zone;
+}
+
+zone::ShapedRings ZoneAssembly::shaped(const Zone& zone) {
+  zone::ShapedRings rings;
+  rings.begin = zone.ring_begin_;
+  rings.piece.reserve(zone.piece_count());
+  for (Index e = 0; e < zone.piece_count(); ++e) rings.piece.push_back(zone.local_piece(e));
+  return rings;
+}
+
+namespace {
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.12g", x);
+  return text;
+}
+
+/// What keeps two zones from having a band between them.
+Status check_band(const Zone& inner, const Zone& outer) {
+  const auto usage = [](std::string what, std::string remedy) {
+    return Error{ErrorCode::usage, std::move(what), "", std::move(remedy)};
+  };
+  for (const Zone* zone : {&inner, &outer}) {
+    if (zone->signed_radius() < 0 || zone->least_radius() < zone->radius() || zone->inner_radius() > 0)
+      return usage("a band lies between whole zones of one positive radius each", "compute them so");
+    for (Index e = 0; e < zone->piece_count(); ++e) {
+      const Zone::Role role = zone->piece(e).role;
+      if (role != Zone::Role::offset && role != Zone::Role::bevel)  // there the two borders would run along each other
+        return usage("a band lies between zones that go round the ends of lines", "leave out other caps, sides and rings");
+    }
+  }
+  if (&inner.network() != &outer.network() || inner.curves() != outer.curves())
+    return usage("a band lies between zones of one network", "compute both of the same one");
+  const double least = 0x1p-36 * outer.scale();
+  if (!(outer.radius() - inner.radius() > least)) {
+    return usage("the radii " + number(inner.radius()) + " and " + number(outer.radius()) +
+                     " are too close for a band, or not in ascending order",
+                 "let them differ by more than " + number(least));
+  }
+  return std::monostate{};
+}
+
+}  // namespace
+
+Result<Zone> ZoneAssembly::band(const Zone& inner, const Zone& outer, const Context& context) {
+  if (Status possible = check_band(inner, outer); !possible) return possible.error();
+  const double extent = outer.curves_ ? outer.curves_->extent() : outer.network_->extent();
+  const auto precision = zone::precision_for(extent, outer.network_->resolution(), inner.radius_, outer.radius_);
+  if (!precision) return precision.error();
+  zone::ShapedRings rings = shaped(outer);
+  const Index outer_pieces = rings.begin.back();
+  const zone::ShapedRings hollow = zone::reversed(shaped(inner));
+  rings.piece.insert(rings.piece.end(), hollow.piece.begin(), hollow.piece.end());
+  for (std::size_t r = 1; r < hollow.begin.size(); ++r) rings.begin.push_back(hollow.begin[r] + outer_pieces);
+  rings.clockwise = outer.ring_is_hole_;
+  for (const bool is_hole : inner.ring_is_hole_) rings.clockwise.push_back(!is_hole);
+  const double slack = 2 * (precision->effective_radius - outer.radius_);
+  auto band = finish(outer.network_, outer.radius_, std::move(rings), slack, outer.counters_, context);
+  if (!band) return band.error();
+  band->curves_ = outer.curves_;
+  band->inner_radius_ = inner.radius_;
+  band->outer_pieces_ = outer_pieces;
+  return band;
+}
+
+Result<Zone> zone_band(const Zone& inner, const Zone& outer, const Context& context) {
+  return ZoneAssembly::band(inner, outer, context);
 }
 
 Zone ZoneAssembly::assemble(std::shared_ptr<const Network> network, double radius, zone::Rings rings,

@@ -18,14 +18,18 @@ class ZoneAssembly {
                              std::shared_ptr<const zone::VariedSites> varied = nullptr);
 
   /// From closed rings of any pieces, the zone on their left. `distance` is the radius, negative where polygons were
-  /// shrunk; opposite boundaries are no nearer to each other than `slack`.
+  /// shrunk; pieces that have no radius get it; opposite boundaries are no nearer to each other than `slack`.
   static Result<Zone> finish(std::shared_ptr<const Network> network, double distance, zone::ShapedRings rings,
                              double slack, const ZoneCounters& counters, const Context& context);
   /// The same of lines with arcs.
   static Result<Zone> finish(std::shared_ptr<const CurveNetwork> curves, double distance, zone::ShapedRings rings,
                              double slack, const ZoneCounters& counters, const Context& context);
 
+  /// zone_band.
+  static Result<Zone> band(const Zone& inner, const Zone& outer, const Context& context);
+
  private:
+  static zone::ShapedRings shaped(const Zone& zone);
   /// From closed and nested rings.
   static Zone assemble(std::shared_ptr<const Network> network, double radius, zone::Rings rings,
                        const zone::Nesting& nesting, const ZoneCounters& counters, const Context& context);

@@ -20,6 +20,8 @@ using kernel::Box;
 
 using vectors::cross;
 
+double radius_of(const Zone::Piece& piece, double radius) { return piece.radius > 0 ? piece.radius : radius; }
+
 /// Everything about one piece that the ray needs.
 class PieceShape {
  public:
@@ -32,7 +34,7 @@ class PieceShape {
       : p_(piece.clockwise ? piece.end : piece.start),
         q_(piece.clockwise ? piece.start : piece.end),
         centre_(piece.center),
-        radius_(piece.from_arc ? piece.radius : radius),
+        radius_(radius_of(piece, radius)),
         arc_(piece.kind == Zone::Kind::arc),
         short_(arc_ && piece.from_arc && is_short_arc(piece)) {
     if (!short_) return;
@@ -162,7 +164,9 @@ class ShapedPicture {
   PieceShape shape(Index e) const { return {rings_.piece[e], radius_}; }
   Index ring_of(Index e) const { return ring_of_[e]; }
   const std::vector<Index>& begin() const { return rings_.begin; }
-  bool clockwise(Index r) const { return runs_clockwise(rings_, radius_, r); }
+  bool clockwise(Index r) const {
+    return rings_.clockwise.empty() ? runs_clockwise(rings_, radius_, r) : rings_.clockwise[r];
+  }
 
  private:
   const ShapedRings& rings_;
@@ -200,7 +204,8 @@ bool runs_clockwise(const ShapedRings& rings, double radius, Index r) {
     double angle = std::atan2(cross(c, from, to), (from.x - c.x) * (to.x - c.x) + (from.y - c.y) * (to.y - c.y));
     if (from == to) angle = 2 * M_PI;
     else if (angle < -1e-6) angle += 2 * M_PI;  // else a short arc whose ends are rounded
-    twice += (p.clockwise ? -1 : 1) * radius * radius * (angle - std::sin(angle));
+    const double own = radius_of(p, radius);
+    twice += (p.clockwise ? -1 : 1) * own * own * (angle - std::sin(angle));
   }
   return twice < 0;
 }

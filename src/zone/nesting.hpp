@@ -20,7 +20,7 @@ struct Nesting {
 /// O((rings + pieces) log pieces), expected.
 Result<Nesting> nest(const Instance& instance, const Rings& rings, const Context& context);
 
-/// The same for rings of any pieces, arcs of the given radius. Opposite boundaries are `slack` apart at least.
+/// The same for rings of any pieces, arcs of the given radius if they have none of their own. Opposite boundaries are `slack` apart at least.
 Result<Nesting> nest(const ShapedRings& rings, double radius, double slack, const Context& context);
 
 /// Drops the rings that lie inside a polygon of the network (even-odd rule per feature): their far side is filled. Each

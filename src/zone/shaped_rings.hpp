@@ -12,6 +12,9 @@ namespace krepl::zone {
 struct ShapedRings {
   std::vector<Index> begin{0};
   std::vector<Zone::Piece> piece;
+  /// Which way each ring runs, where that is known; else it is told by areas, which cannot tell an arc of nearly a full turn
+  /// from one of hardly any.
+  std::vector<bool> clockwise = {};
 
   Index ring_count() const { return Index(begin.size() - 1); }
   void close() { begin.push_back(Index(piece.size())); }

@@ -133,8 +133,9 @@ std::optional<std::string> Zone::validate() const {
     const double length = distance(a, b), ux = (b.x - a.x) / length, uy = (b.y - a.y) / length;
     for (const Point q : {p.start, p.end}) {
       const double off = (q.x - a.x) * uy - (q.y - a.y) * ux;
-      // Where a polygon was shrunk the zone is on the other side.
-      if (!(std::abs((inward_ ? std::abs(off) : off) - p.radius) <= tolerance)) return complain("a segment is off its offset line");
+      // Where a polygon was shrunk, and along the inner border of a band, the zone is on the other side.
+      const double out = inward_ ? std::abs(off) : is_inner(e) ? -off : off;
+      if (!(std::abs(out - p.radius) <= tolerance)) return complain("a segment is off its offset line");
     }
     if ((p.end.x - p.start.x) * ux + (p.end.y - p.start.y) * uy < -tolerance) return complain("a segment runs backwards");
   }

@@ -63,6 +63,64 @@ class Buffer(support.CliTest):
         for zone, radius in zip(zones, (1, 2.5, 10)):
             self.check(zone, radius * radius * PI)
 
+    def test_bands_are_what_each_zone_adds(self):
+        bands = self.zones("-", "-", "--radius", "10,1,2.5", "--bands", stdin="POINT (0 0)")
+        self.assertEqual(len(bands), 3)
+        self.check(bands[0], PI)
+        for band, inner, outer in zip(bands[1:], (1, 2.5), (2.5, 10)):
+            self.check(band, (outer * outer - inner * inner) * PI, holes=1, length=2 * PI * (inner + outer))
+
+    def test_bands_tell_their_radii_and_verify(self):
+        self.write("in.wkt", "LINESTRING (0 0, 10 0, 13 9)\nPOLYGON ((20 0, 30 0, 30 10, 20 10, 20 0))\nPOINT (8 4)\n")
+        total = self.zones("in.wkt", "-", "--radius", "4")[0].area
+        for extension, layer in (("gpkg", "zone"), ("fgb", "zone"), ("geojson", "zone"), ("shp", "out")):
+            name = f"out.{extension}"
+            allowed = () if extension in ("gpkg", "fgb") else ("--max-error", "1e-6")
+            self.succeed("buffer", "in.wkt", name, "--radius", "1,2,4", "--bands", *allowed)
+            rows = json.loads(self.ogr("ogr2ogr", "-f", "GeoJSON", "/vsistdout/", name, layer))["features"]
+            told = [(row["properties"]["inner"], row["properties"]["radius"]) for row in rows]
+            self.assertEqual(told, [(0, 1), (1, 2), (2, 4)])
+            self.assertAlmostEqual(sum(row["properties"]["area"] for row in rows), total, delta=1e-9 * total)
+            done = self.succeed("verify", name, "--against", "in.wkt", *allowed)
+            self.assertIn("band of radius 1 to 2", done.stdout)
+        pieces = json.loads(self.ogr("ogr2ogr", "-f", "GeoJSON", "/vsistdout/", "out.gpkg", "pieces"))["features"]
+        self.assertEqual({row["properties"]["radius"] for row in pieces}, {1, 2, 4})
+        self.succeed("buffer", "in.wkt", "out.wkt", "--radius", "1,2,4", "--bands")
+        self.succeed("verify", "out.wkt", "--against", "in.wkt", "--radius", "1,2,4", "--bands")
+        wrong = self.krepl("verify", "out.wkt", "--against", "in.wkt", "--radius", "1,2.001,4", "--bands")
+        self.assertEqual(wrong.returncode, 1)
+        self.succeed("buffer", "in.wkt", "out.svg", "--radius", "1,2", "--bands")
+        self.assertIn('data-radius="2" data-inner="1"', self.text("out.svg"))
+        self.succeed("buffer", "in.wkt", "out.dxf", "--radius", "1,2", "--bands")
+        self.assertIn("BAND_1_2", self.text("out.dxf"))
+
+    def test_bands_out_of_a_diagram(self):
+        self.write("in.wkt", "LINESTRING (0 0, 10 0, 13 9, 40 9)")
+        self.succeed("buffer", "in.wkt", "out.gpkg", "--radius", "0.25:5:0.25", "--bands")
+        done = self.succeed("verify", "out.gpkg", "--against", "in.wkt")
+        self.assertIn("band of radius 4.75 to 5", done.stdout)
+
+    def test_bands_go_with_round_zones_only(self):
+        line = "LINESTRING (0 0, 10 0)"
+        message = "bands have round caps and joins, both sides and positive radii; leave the other options out"
+        for options in (("--cap", "flat"), ("--side", "left"), ("--ring",), ("--join", "mitre")):
+            self.fail_with(2, message, "buffer", "-", "out.gpkg", "--radius", "1,2", "--bands", *options, stdin=line)
+        self.fail_with(2, "--bands does not go with radii or zones of single features; leave one of them out", "buffer", "-",
+                       "out.gpkg", "--radius", "1,2", "--bands", "--per-feature", stdin=line)
+        self.fail_with(2, "standard input: the radii 1 and 1 are too close for a band, or not in ascending order; "
+                          "let them differ by more than 7.27595761418e-11", "buffer", "-", "out.gpkg", "--radius", "1,1", "--bands", stdin=line)
+
+    def test_auto_takes_the_sweep_inside_a_digitised_circle(self):
+        corners = [(1000 * math.cos(2 * PI * i / 3000), 1000 * math.sin(2 * PI * i / 3000)) for i in range(3000)]
+        self.write("in.wkt", "LINESTRING (" + ", ".join(f"{x:.3f} {y:.3f}" for x, y in corners + corners[:1]) + ")")
+        done = self.succeed("buffer", "in.wkt", "auto.wkb", "--radius", "999.9", "--verbose")
+        self.assertIn("intervals  given up: more than 100 cigars", done.stderr)
+        self.assertIn("sweep ", done.stderr)
+        self.succeed("buffer", "in.wkt", "intervals.wkb", "--radius", "999.9", "--engine", "intervals")
+        self.assertEqual((self.directory / "auto.wkb").read_bytes(), (self.directory / "intervals.wkb").read_bytes())
+        done = self.succeed("buffer", "in.wkt", "auto.wkb", "--radius", "10", "--verbose")
+        self.assertNotIn("given up", done.stderr)
+
     def test_separate(self):
         zones = self.zones("-", "-", "--radius", "1", "--separate", stdin="MULTIPOINT ((0 0), (10 0), (20 0))")
         self.assertEqual(len(zones), 3)
