@@ -5,7 +5,7 @@ namespace krepl {
 Result<Zone> compute_zone_auto(std::shared_ptr<const Network> network, const ZoneOptions& options,
                                const Context& context, AutoCounters* counters) {
   // Candidates in the mean that take as long as the sweep takes for an element; rivers, roads and streets have 1 to 6.
-  constexpr std::uint64_t too_many = 100;
+  constexpr std::uint64_t too_many = 40;
   AutoCounters own;
   AutoCounters& c = counters != nullptr ? *counters : own;
   c = {};

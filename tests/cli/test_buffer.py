@@ -114,7 +114,7 @@ class Buffer(support.CliTest):
         corners = [(1000 * math.cos(2 * PI * i / 3000), 1000 * math.sin(2 * PI * i / 3000)) for i in range(3000)]
         self.write("in.wkt", "LINESTRING (" + ", ".join(f"{x:.3f} {y:.3f}" for x, y in corners + corners[:1]) + ")")
         done = self.succeed("buffer", "in.wkt", "auto.wkb", "--radius", "999.9", "--verbose")
-        self.assertIn("intervals  given up: more than 100 cigars", done.stderr)
+        self.assertIn("intervals  given up: more than 40 cigars", done.stderr)
         self.assertIn("sweep ", done.stderr)
         self.succeed("buffer", "in.wkt", "intervals.wkb", "--radius", "999.9", "--engine", "intervals")
         self.assertEqual((self.directory / "auto.wkb").read_bytes(), (self.directory / "intervals.wkb").read_bytes())

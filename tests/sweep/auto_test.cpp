@@ -29,7 +29,7 @@ TEST(AutoEngine, TakesTheSweepInsideADigitisedCircle) {
   const auto zone = compute_zone_auto(network, {999.9}, {}, &counters);
   ASSERT_TRUE(zone.ok()) << zone.error().text();
   EXPECT_TRUE(counters.by_sweep);
-  EXPECT_NE(counters.given_up.find("more than 100 cigars"), std::string::npos) << counters.given_up;
+  EXPECT_NE(counters.given_up.find("more than 40 cigars"), std::string::npos) << counters.given_up;
   EXPECT_GT(counters.sweep.curves, 0u);
   EXPECT_EQ(zone->validate().value_or("sound"), "sound");
   const auto by_intervals = compute_zone(network, {999.9});
