@@ -207,6 +207,9 @@ int verify_zones(const VerifyOptions& options, Session& session) {
     // Parabolas in the border of a one-sided zone are chords (docs/shape.md).
     if (shape->side != Side::both && options.max_error.empty()) check.max_error = 2e-6 * radius;
     const bool plain = is_plain(*shape, {radius});
+    if (!plain && zone.inner > 0)
+      return session.fail("", {ErrorCode::usage, "bands have round caps and joins, both sides and positive radii", "",
+                               "leave the other options out"});
     auto report = plain ? verify::check_zone(zone.polygons, obstacle, check, session.context("checking"))
                         : verify::check_shape(zone.polygons, *parts, shape_question(*shape, radius), check,
                                               session.context("checking"));
