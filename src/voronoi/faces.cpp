@@ -40,17 +40,31 @@ double joint_height(const Arcs& arcs, std::size_t i, std::size_t k, Real x) {
 
 }  // namespace
 
+/// What was taken of a site so far. Most faces look at few sites; the side of a long segment may at thousands.
+FaceBuilder::Taken& FaceBuilder::taken(Index site) {
+  constexpr std::size_t few = 32;
+  if (taken_.size() <= few) {
+    const auto known = std::find_if(taken_.begin(), taken_.end(), [&](const Taken& t) { return t.site == site; });
+    if (known != taken_.end()) return *known;
+    if (taken_.size() == few) {
+      taken_at_.clear();
+      for (std::size_t i = 0; i < few; ++i) taken_at_.emplace(taken_[i].site, i);
+    }
+  } else if (const auto known = taken_at_.find(site); known != taken_at_.end()) {
+    return taken_[known->second];
+  }
+  if (taken_.size() >= few) taken_at_.emplace(site, taken_.size());
+  taken_.push_back({site, 0});
+  ++counters.candidates;
+  return taken_.back();
+}
+
 /// Takes parts of a site into account that were not yet; returns true if the face changed.
 template <class Cell>
 bool FaceBuilder::take(Cell& cell, Index site, SiteParts parts) {
-  const auto known = std::find_if(taken_.begin(), taken_.end(), [&](const Taken& t) { return t.site == site; });
-  if (known == taken_.end()) {
-    taken_.push_back({site, parts});
-    ++counters.candidates;
-  } else {
-    parts &= ~known->parts;
-    known->parts |= parts;
-  }
+  Taken& so_far = taken(site);
+  parts &= ~so_far.parts;
+  so_far.parts |= parts;
   return parts != 0 && cell.add_site(site, parts);
 }
 
@@ -149,10 +163,14 @@ void FaceBuilder::gather(Cell& cell, std::span<const Hint> hints, Vector<double>
   if (reach_.is_empty()) return;
   const auto window = [&]() -> const SiteBoxes::SearchWindow& { return reach_.window(); };
   const auto meets = [&](const SiteBoxes::Box& box) { return reach_.meets(box); };
+  // A face only becomes smaller, so where it has many neighbours it is enough to judge it now and then.
+  std::size_t changes = 0;
   const auto visit = [&](Index site) {
-    const bool changed = take(cell, site, all_parts);
-    if (changed) judge(cell, hints, base);
-    return changed;
+    constexpr std::size_t share = 16;
+    if (!take(cell, site, all_parts) || share * ++changes < labels_.size()) return false;
+    judge(cell, hints, base);
+    changes = 0;
+    return true;
   };
   // A face that reaches far would otherwise be cut by all that lies near before it is cut by what faces it.
   const auto& half = reach_.window().half;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "voronoi/reach.hpp"
@@ -61,6 +62,11 @@ class FaceBuilder {
  private:
   template <class Cell>
   void gather(Cell& cell, std::span<const Hint> hints, Vector<double> base, Vector<double> from);
+  struct Taken {
+    Index site;
+    SiteParts parts;
+  };
+  Taken& taken(Index site);
   template <class Cell>
   bool take(Cell& cell, Index site, SiteParts parts);
   template <class Cell>
@@ -94,11 +100,8 @@ class FaceBuilder {
   Reach reach_;
   KnownEmpty known_;
   SiteBoxes::Memory memory_;
-  struct Taken {
-    Index site;
-    SiteParts parts;
-  };
   std::vector<Taken> taken_;
+  std::unordered_map<Index, std::size_t> taken_at_;  // where in taken_, once these are many
   std::vector<Index> labels_, near_, seeds_;
   std::vector<char> short_;
   struct Recent {
