@@ -12,7 +12,7 @@ from cases import machine, run_case, table  # noqa: E402
 
 PACKAGES = ["libboost-dev", "libcgal-dev", "g++", "libtbb-dev"]
 FILES = ["river_new_hope_epsg32617_mm", "river_methow", "roads_monaco_epsg32632_mm", "ne_10m_rivers_europe_epsg3035_m",
-         "lakes_new_hope", "ne_10m_railroads_north_america", "streets_tempe"]
+         "ne_10m_railroads_north_america", "streets_tempe"]
 
 
 class Bench:

@@ -60,21 +60,31 @@ class Envelope {
   bool insert(const Curve& curve, Real low, Real high) {
     if (!(low < high)) return false;
     wins_.clear();
-    first_ = 0;
-    while (first_ < arcs_.size() && !(arcs_[first_].end > low)) ++first_;
+    const auto reached = std::partition_point(arcs_.begin(), arcs_.end(), [&](const Arc& a) { return !(a.end > low); });
+    first_ = std::size_t(reached - arcs_.begin());
     for (std::size_t i = first_; i < arcs_.size() && arcs_[i].begin < high; ++i)
       wins_.push_back(win(arcs_[i], curve, low, high));
     for (std::size_t k = 0; k + 1 < wins_.size(); ++k)
       agree(arcs_[first_ + k], wins_[k], arcs_[first_ + k + 1], wins_[k + 1]);
     if (std::none_of(wins_.begin(), wins_.end(), [](const Win& w) { return w.holds[0] || w.holds[1]; })) return false;
-    next_.assign(arcs_.begin(), arcs_.begin() + std::ptrdiff_t(first_));
+    const std::size_t from = first_ > 0 ? first_ - 1 : 0;  // what changes may go on from the arc before
+    next_.assign(arcs_.begin() + std::ptrdiff_t(from), arcs_.begin() + std::ptrdiff_t(first_));
     for (std::size_t k = 0; k < wins_.size(); ++k) cut(arcs_[first_ + k], wins_[k], curve);
-    next_.insert(next_.end(), arcs_.begin() + std::ptrdiff_t(first_ + wins_.size()), arcs_.end());
-    arcs_.swap(next_);
+    replace(from, first_ + wins_.size());
     return true;
   }
 
  private:
+  /// Puts next_ in the place of the arcs from `from` to before `to`: a face may have thousands.
+  void replace(std::size_t from, std::size_t to) {
+    const std::size_t common = std::min(to - from, next_.size());
+    const auto at = arcs_.begin() + std::ptrdiff_t(from), rest = next_.begin() + std::ptrdiff_t(common);
+    std::copy(next_.begin(), rest, at);
+    const auto end = at + std::ptrdiff_t(common);
+    if (common < to - from) arcs_.erase(end, arcs_.begin() + std::ptrdiff_t(to));
+    else arcs_.insert(end, rest, next_.end());
+  }
+
   /// Where the new curve is nearer than an arc's, before and after it is cut to the arc.
   struct Win {
     Stretches<Real> whole;
