@@ -135,6 +135,14 @@ GradientOf<Real> Envelope<Real>::gradient_across(Index a, Index b, Meeting how, 
   return {0, 0};
 }
 
+/// True if a place lies outside a wall of the patch: there may be a gap too narrow for lines to show between two walls.
+template <class Real>
+bool Envelope<Real>::is_beyond_wall(Index patch, Point p) const {
+  const std::span<const Bound> sides = patches_.bounds(patch);
+  return std::any_of(sides.begin(), sides.end(),
+                     [&](const Bound& b) { return b.rim && b.sign() * b.value(p, patches_.square_radius()) > 0; });
+}
+
 template <class Real>
 Meeting Envelope<Real>::meeting(Index a, Index b, Point p) const {
   if (a == none || b == none) return Meeting::rim;
@@ -149,7 +157,8 @@ Meeting Envelope<Real>::meeting(Index a, Index b, Point p) const {
     return absolute(difference) <= slack ? Meeting::valley : Meeting::rim;
   }
   // Just before its end a patch falls steeply: where the other one is higher than its rim, it has met that one before.
-  if (a_ends != b_ends && (a_ends ? difference < 0 : difference > 0)) return Meeting::valley;
+  if (a_ends != b_ends && (a_ends ? difference < 0 : difference > 0))
+    return is_beyond_wall(a_ends ? b : a, p) ? Meeting::rim : Meeting::valley;
   const Gradient g = a_ends ? rim_gradient(a) : patches_.gradient(a, p),
                  h = b_ends ? rim_gradient(b) : patches_.gradient(b, p);
   return absolute(difference) <= 64 * tolerance_ * (1 + norm(g.x - h.x, g.y - h.y)) ? Meeting::valley : Meeting::rim;
