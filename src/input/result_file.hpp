@@ -30,9 +30,9 @@ struct ResultPolygon {
 };
 struct ResultZone {
   std::optional<double> radius;  ///< from the file's field `radius`, where it has one
-  std::optional<double> inner;   ///< of bands: from the field `inner`
   std::vector<ResultPolygon> polygons;
   std::string crs;               ///< name of the coordinate system, empty if unknown
+  std::optional<double> inner = {};  ///< of bands: from the field `inner`
 };
 
 /// Reads the zones in a vector file that krepl (or other software) wrote: one per feature, true curves kept; features of equal
