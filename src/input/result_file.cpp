@@ -69,7 +69,7 @@ Result<std::vector<ResultZone>> collect_zones(GeometrySource& source, bool merge
     auto known =
         std::find_if(zones.begin(), zones.end(), [&](const ResultZone& z) { return merge && continues(z, radius); });
     if (known == zones.end()) {
-      zones.push_back({radius, merge ? number_field(record.feature, "inner") : std::nullopt, {}, {}});
+      zones.push_back({radius, {}, {}, merge ? number_field(record.feature, "inner") : std::nullopt});
       known = zones.end() - 1;
     }
     Status appended = append_polygons(*record.geometry, source.place(record.number), known->polygons);
