@@ -111,7 +111,7 @@ class Cells {
   bool sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const;
   bool shows_all(const Cell& cell, std::span<Index> candidates);
   bool is_seen(Index label) const;
-  bool is_thin(Index patch, Index a, Index b, const Box& box, Real width) const;
+  bool is_thin(Index patch, Index a, Index b, const Box& box, Real width, bool crossed = false) const;
   std::optional<Point> end_of_thin_bend(const Box& box) const;
   std::optional<Point> end_of_thin_strip() const;
   bool is_thin_bend(Index a, Index b, const Box& box) const;

@@ -47,12 +47,13 @@ bool Cells<Real>::is_seen(Index label) const {
 }
 
 /// True if a cylinder's or sphere's patch is nowhere in the box wider than that between two of its sides; a sphere's
-/// between the seams to a and b, unless these are none.
+/// between the seams to a and b, unless these are none. With `crossed` the sides lie the other way round, and nowhere
+/// farther apart than that.
 ///
 /// Both sides' functions are negative inside, so where their sum is above -t, so is each; their gradients across are at
 /// least 1, and near the rim at least the slope of their root.
 template <class Real>
-bool Cells<Real>::is_thin(Index patch, Index a, Index b, const Box& box, Real width) const {
+bool Cells<Real>::is_thin(Index patch, Index a, Index b, const Box& box, Real width, bool crossed) const {
   const PatchSet<Real>& patches = envelope_.patches();
   const std::span<const Bound> bounds = patches.bounds(patch);
   if (patches[patch].kind == FeatureKind::edge) return bounds[0].c - bounds[1].c <= width;  // its two straight sides
@@ -73,7 +74,8 @@ bool Cells<Real>::is_thin(Index patch, Index a, Index b, const Box& box, Real wi
       sum.ny = s * f.ny + t * g.ny;
       sum.c = s * f.c + t * g.c;
       const Real least = std::min(absolute(f.c), absolute(g.c)), slope = least * steepness - 1;
-      const Real deepest = envelope_.bound_range(sum, box).low;
+      const Range depth = envelope_.bound_range(sum, box);
+      const Real deepest = crossed ? -depth.high : depth.low;
       if (deepest >= -width * std::clamp<Real>(slope, 1, 64)) return true;
       // Steeper still, what is thin in the plane has to be so on the surface, too: their functions are c times as
       // steep.
@@ -84,7 +86,7 @@ bool Cells<Real>::is_thin(Index patch, Index a, Index b, const Box& box, Real wi
 }
 
 /// True if two edges are so nearly in one line that the sphere between them is nowhere in the box wider than the
-/// tolerance.
+/// tolerance, or, where it is elsewhere, that their own ends overlap by no more.
 template <class Real>
 bool Cells<Real>::is_thin_bend(Index a, Index b, const Box& box) const {
   const PatchSet<Real>& patches = envelope_.patches();
@@ -93,7 +95,7 @@ bool Cells<Real>::is_thin_bend(Index a, Index b, const Box& box) const {
   for (const Bound& side : patches.bounds(a)) {
     if (side.partner == none || patches[side.partner].kind != FeatureKind::vertex) continue;
     if (patches.seam(side.partner, b) == nullptr) continue;
-    return !envelope_.domain_meets(side.partner, box) || is_thin(side.partner, a, b, box, envelope_.tolerance());
+    return is_thin(side.partner, a, b, box, envelope_.tolerance(), !envelope_.domain_meets(side.partner, box));
   }
   return false;
 }
