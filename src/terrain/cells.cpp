@@ -288,19 +288,21 @@ bool Cells<Real>::stays_wall(const Turn& from, Point to, const Box& box) const {
 }
 
 /// True if a valley from a turn to another place in it stays one: where it comes down to the height at which one of its patches
-/// ends in a wall, that wall goes on. The other patch is concave, so that it is no lower between the two ends but for how far the
-/// valley is from the straight line.
+/// ends in a wall, that wall goes on. The other patch is concave, so that it is no lower between the two ends but for how far a
+/// round wall is from the straight line.
 template <class Real>
 bool Cells<Real>::stays_valley(const Turn& from, Point to, const Box& box) const {
   if (from.meeting != Meeting::valley) return true;
   const PatchSet<Real>& patches = envelope_.patches();
-  const Real dx = to.x - from.at.x, dy = to.y - from.at.y, sagitta = (dx * dx + dy * dy) / (4 * patches.radius());
+  const Real dx = to.x - from.at.x, dy = to.y - from.at.y;
   for (const Index upright : {from.before, from.after}) {
     const Index other = upright == from.before ? from.after : from.before;
     if (upright == none || other == none || patches[upright].kind == Terrain::FeatureKind::face) continue;
     const std::span<const Bound> sides = patches.bounds(upright);
     if (std::none_of(sides.begin(), sides.end(), [&](const Bound& b) { return b.rim && !envelope_.covers(b, box); })) continue;
     const Gradient wall = envelope_.rim_gradient(upright);
+    const bool round = patches[upright].kind == Terrain::FeatureKind::vertex;
+    const Real sagitta = round ? (dx * dx + dy * dy) / (4 * patches.radius()) : 0;
     for (const Point p : {from.at, to}) {
       const Gradient g = patches.gradient(other, p);
       const Real slope = norm(g.x - wall.x, g.y - wall.y);
