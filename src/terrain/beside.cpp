@@ -27,21 +27,20 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (c.kind != FeatureKind::edge || k.kind != FeatureKind::edge) return false;
   if (absolute(c.gx * k.gy - c.gy * k.gx) > 0x1p-8) return false;
-  const auto aside = [](const Patch& f, Point p) { return (p.y - f.at.y) * f.gx - (p.x - f.at.x) * f.gy; };
   const Real turn = c.gx * k.gx + c.gy * k.gy > 0 ? 1 : -1;
   const Real farthest = 0x1p-4 * patches_.radius();
-  if (absolute(turn * aside(c, frame.mid) - aside(k, frame.mid)) > farthest) return false;
+  if (absolute(turn * c.aside(frame.mid) - k.aside(frame.mid)) > farthest) return false;
   const std::array<Point, 4> corner = frame.box.corners();
   Real apart[4], widest = 0;
   for (int i = 0; i < 4; ++i) {
-    apart[i] = turn * aside(c, corner[i]) - aside(k, corner[i]);
+    apart[i] = turn * c.aside(corner[i]) - k.aside(corner[i]);
     widest = std::max(widest, absolute(apart[i]));
   }
   if (widest > farthest) return false;
   for (const Bound& b : patches_.bounds(upper)) {
     if (b.type == BoundType::cone && !is_within(b, frame, least_up)) return false;
   }
-  const Real beta = aside(k, frame.mid), square = patches_.square_radius();
+  const Real beta = k.aside(frame.mid), square = patches_.square_radius();
   const Real spread = absolute(k.gx) * frame.hy + absolute(k.gy) * frame.hx;
   const Real near = std::max(Real(0), absolute(beta) - spread), far = absolute(beta) + spread;
   Real up[2] = {square_root(std::max(Real(0), square - far * far)),
@@ -120,7 +119,7 @@ bool Envelope<Real>::lies_in(Index lower, Index upper) const {
     const auto along = [&](Point p) { return (p.x - k.at.x) * k.gx + (p.y - k.at.y) * k.gy; };
     const auto holds = [&](Point p, Real z) {
       const Real t = along(p);
-      return absolute((p.y - k.at.y) * k.gx - (p.x - k.at.x) * k.gy) <= tolerance && t >= -tolerance &&
+      return absolute(k.aside(p)) <= tolerance && t >= -tolerance &&
              t <= k.length + tolerance && z <= k.z + k.m * t + noise_;
     };
     if (c.kind == FeatureKind::vertex) return holds(a, top_a) && along(a) > tolerance_ && along(a) < k.length - tolerance_;

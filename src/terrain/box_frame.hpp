@@ -13,6 +13,12 @@ struct Envelope<Real>::BoxFrame {
   Real hx, hy;
 };
 
+template <class Real>
+inline std::array<Real, 4> Envelope<Real>::Plane::at_corners(const BoxFrame& box) const {
+  const Real x = gradient.x * box.hx, y = gradient.y * box.hy, h = height;
+  return {h - x - y, h + x - y, h + x + y, h - x + y};
+}
+
 /// The least value of a bound's function over a box (sign = 1), or the greatest one with its sign changed (sign = -1), a bit
 /// less for rounding. `least_up`: of the height over the rim that a cone's value depends on.
 template <class Real>

@@ -81,9 +81,8 @@ bool Cells<Real>::subdivide(const Cell& cell, std::size_t first, int depth) {
   const bool few = smallest || kept.size() <= most_settled;
   if (!few || !settle(cell, kept, smallest)) {
     stack_.erase(std::remove(stack_.begin() + std::ptrdiff_t(begin), stack_.end(), none), stack_.end());
-    if (is_fine<Real> && few) add_seen(begin);
     const bool hard = finer_ != nullptr && stack_.size() - begin <= most_settled && is_hard(cell.box);
-    if (hard) add_seen(begin);
+    if (hard || (is_fine<Real> && few)) add_seen(begin);
     done = hard ? refine(cell, {stack_.data() + begin, stack_.size() - begin}) : split(cell, begin, depth, just_asked);
   }
   stack_.resize(begin);
@@ -360,7 +359,7 @@ bool Cells<Real>::settle_crossing(const Box& box) {
   for (const Index l : {t.before, t.after}) {
     const Patch& f = patches[l];
     for (const Point c : box.corners()) {
-      if (absolute((c.y - f.at.y) * f.gx - (c.x - f.at.x) * f.gy) >= patches.radius()) return false;
+      if (absolute(f.aside(c)) >= patches.radius()) return false;
     }
   }
   add_vertex(*p);
@@ -486,10 +485,7 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
     const Bound *a = own_side(from), *b = own_side(to);
     // A side that comes out from under a higher wall.
     const bool out_of_foot = is_at_foot(from) != is_at_foot(to);
-    if (out_of_foot && (a == nullptr || b == nullptr)) {
-      const Turn& out = is_at_foot(from) ? to : from;
-      a = b = out.meeting == Meeting::valley ? envelope_.rim_at(patch, out.at) : side_along(out);
-    }
+    if (out_of_foot && (a == nullptr || b == nullptr)) a = b = is_at_foot(from) ? b : a;
     if (a == nullptr || b == nullptr || (a == b && !out_of_foot)) continue;
     for (const Point c : patches.corners(patch)) {
       const Real apart = norm(c.x - p.x, c.y - p.y);

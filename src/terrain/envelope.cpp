@@ -187,7 +187,7 @@ template <class Real>
 RangeOf<Real> Envelope<Real>::aside_range(Index i, const Box& box, Where where) const {
   const Patch& f = patches_[i];
   const Point mid = box.middle();
-  const Real aside = (mid.y - f.at.y) * f.gx - (mid.x - f.at.x) * f.gy;
+  const Real aside = f.aside(mid);
   const Real spread = absolute(f.gx) * box.half_y() + absolute(f.gy) * box.half_x();
   Range r{aside - spread, aside + spread};
   if (where == Where::in_domain) {

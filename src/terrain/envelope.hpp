@@ -144,6 +144,8 @@ class Envelope {
   struct Plane {
     Real height;
     Gradient gradient;
+    /// At the corners of the box, counter-clockwise from the lowest.
+    std::array<Real, 4> at_corners(const BoxFrame& box) const;
   };
   /// A wall in which a body ends, and by how much the body may be lower there than the patch's rim_height.
   struct Wall {
@@ -170,6 +172,7 @@ class Envelope {
   Real extreme(const Bound& bound, const BoxFrame& box, Real least_up = 0) const;
   bool is_within(const Bound& bound, const BoxFrame& box, Real least_up = 0) const;
   std::optional<Wall> wall_through(Index patch, const BoxFrame& box) const;
+  bool is_above(Index upper, const Wall& wall, Index lower, const BoxFrame& frame) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
   bool precedes(Index a, Index b) const;
   bool lies_in(Index lower, Index upper) const;
@@ -186,7 +189,7 @@ class Envelope {
   bool curve_function(Index own, Index other, std::span<const Vector> places, std::span<const Vector> normals,
                       Real* value, Real& slack) const;
   Real outside(const Bound& wall, Point p) const;
-  Real inset_of(Index body, const Wall& wall, const Box& box, const Real (&plane)[4]) const;
+  Real inset_of(Index body, const Wall& wall, const Box& box, const std::array<Real, 4>& plane) const;
   bool hidden_beyond(Index patch, const Wall& wall, Real inset, std::span<const Index> others,
                      const BoxFrame& frame) const;
   bool beside_beyond(Index patch, const Bound& wall, Real inset, std::span<const Index> others, const Box& box) const;

@@ -158,22 +158,6 @@ bool Envelope<Real>::domain_covers(Index i, const BoxFrame& box) const {
   return true;
 }
 
-template <class Real>
-std::optional<BoundOf<Real>> Envelope<Real>::wall_above(Index upper, Index lower, const Box& box) const {
-  const BoxFrame frame(box);
-  const std::optional<Wall> wall = wall_through(upper, frame);
-  if (!wall) return std::nullopt;
-  const Point p = support_point(lower, frame);
-  const Gradient g = patches_.gradient(lower, p);
-  for (const Point q : box.corners()) {
-    if (!(patches_.extended_height(lower, p) + g.x * (q.x - p.x) + g.y * (q.y - p.y) <
-          rim_height(upper, q) - wall->lowered - noise_)) {
-      return std::nullopt;
-    }
-  }
-  return wall->outline;
-}
-
 /// The bodies of a few labels over a box, evaluated at its corners as far as needed: a concave height is least at a
 /// corner, less a plane too.
 template <class Real>
@@ -212,14 +196,14 @@ class Envelope<Real>::Cover {
   /// The same, if it lies below the given plane.
   bool hides(Index c, const Plane& plane) {
     noise_ = envelope_.noise_ * (1 + absolute(plane.gradient.x) + absolute(plane.gradient.y));
-    const Real hx = plane.gradient.x * frame_.hx, hy = plane.gradient.y * frame_.hy, h = plane.height;
-    const Real t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
+    const std::array<Real, 4> t = plane.at_corners(frame_);
+    const Real hx = plane.gradient.x * frame_.hx, hy = plane.gradient.y * frame_.hy;
     const int highest = step_ == 2 ? (hx + hy > 0 ? 2 : 0) : hy > 0 ? (hx > 0 ? 2 : 3) : (hx > 0 ? 1 : 0);
     if (hides(c, t, highest)) return true;
     // Faces that are nearly vertical have a top, but no tangent plane worth having.
     const Real top = envelope_.patches_[c].top;
     if (!(top < t[highest])) return false;
-    const Real level[4] = {top, top, top, top};
+    const std::array<Real, 4> level{top, top, top, top};
     return below_one(c, masks(level, highest));
   }
 
@@ -261,7 +245,7 @@ class Envelope<Real>::Cover {
   }
 
   /// Without any bit if no body is higher at some corner.
-  Masks masks(const Real (&t)[4], int first) {
+  Masks masks(const std::array<Real, 4>& t, int first) {
     Masks m{};
     for (int n = 0; n < 4; n += step_) {
       const int i = (first + n) & 3;
@@ -292,7 +276,7 @@ class Envelope<Real>::Cover {
     return false;
   }
 
-  bool hides(Index c, const Real (&t)[4], int highest) {
+  bool hides(Index c, const std::array<Real, 4>& t, int highest) {
     const Masks m = masks(t, highest);
     if (below_one(c, m)) return true;
     for (std::size_t k = 0; k < bodies_; ++k) {
@@ -311,7 +295,7 @@ class Envelope<Real>::Cover {
   }
 
   /// Below a weighted mean of two bodies, which is concave too and not above the higher one.
-  bool below_mean(const Body& a, const Body& b, const Real (&t)[4]) const {
+  bool below_mean(const Body& a, const Body& b, const std::array<Real, 4>& t) const {
     Real low = 0, high = 1;
     for (int i = 0; i < 4; i += step_) {
       const Real slope = a.height[i] - b.height[i], need = t[i] + noise_ - b.height[i];
@@ -417,9 +401,7 @@ bool Envelope<Real>::hidden_within_tolerance(Index i, std::span<const Index> upp
   if (box.larger_side() >= 2 * patches_.radius()) return false;
   const BoxFrame frame(box);
   const std::array<Point, 4> corner = box.corners();
-  const Plane plane = support(i, frame);
-  const Real hx = plane.gradient.x * box.half_x(), hy = plane.gradient.y * box.half_y(), h = plane.height;
-  const Real t[4] = {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy};
+  const std::array<Real, 4> t = support(i, frame).at_corners(frame);
   std::array<std::array<Real, 4>, most> above;  // of the bodies over the plane
   std::array<Bound, most> wall;
   std::array<Real, most> inset;

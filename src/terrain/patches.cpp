@@ -1,6 +1,5 @@
 #include "terrain/patches.hpp"
 
-
 #include <cmath>
 #include <tuple>
 #include <utility>

@@ -87,6 +87,13 @@ struct PatchOf {
   /// Of an edge: its second vertex.
   Point end() const { return {at.x + length * gx, at.y + length * gy}; }
   Real end_z() const { return z + m * length; }
+  /// Of an edge: how far to the left of its line, in the plane.
+  Real aside(Point p) const { return (p.y - at.y) * gx - (p.x - at.x) * gy; }
+  /// Of an edge: true if a segment of the plane comes nowhere nearer to its line than that.
+  bool is_clear_of(Point a, Point b, Real distance) const {
+    const Real s = aside(a), t = aside(b);
+    return std::min(s, t) >= distance || std::max(s, t) <= -distance;
+  }
 };
 
 /// All patches that may appear above a rectangle, and their domains.

@@ -81,7 +81,6 @@ void Envelope<Real>::drop_slivers(const Line& line, Index start, std::size_t fir
   crossings.resize(kept);
 }
 
-/// stack_[first ..]: the candidates of the stretch around this one.
 /// True if a stretch of a line is nowhere inside the strip or disc of a cylinder or sphere, as where it runs along its rim.
 template <class Real>
 bool Envelope<Real>::misses(const Line& line, Real t0, Real t1, Index i) const {
@@ -89,14 +88,10 @@ bool Envelope<Real>::misses(const Line& line, Real t0, Real t1, Index i) const {
   const Real radius = patches_.radius();
   if (p.kind == Terrain::FeatureKind::face) return false;
   if (p.kind == Terrain::FeatureKind::vertex) return absolute(line.at - (line.vertical ? p.at.x : p.at.y)) >= radius;
-  const auto aside = [&](Real t) {
-    const Point at = line.point(t);
-    return (at.y - p.at.y) * p.gx - (at.x - p.at.x) * p.gy;
-  };
-  const Real a = aside(t0), b = aside(t1);
-  return std::min(a, b) >= radius || std::max(a, b) <= -radius;
+  return p.is_clear_of(line.point(t0), line.point(t1), radius);
 }
 
+/// stack_[first ..]: the candidates of the stretch around this one.
 template <class Real>
 void Envelope<Real>::section(const Line& line, Real t0, Index l0, Real t1, Index l1, std::size_t first, int depth) {
   const std::size_t begin = stack_.size();

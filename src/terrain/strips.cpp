@@ -51,11 +51,7 @@ bool Cells<Real>::wall_keeps_off(const Turn& from, Point to, const Turn& valley)
   const Patch& f = patches[other];
   const Real radius = patches.radius();
   if (f.kind == Terrain::FeatureKind::vertex && distance(f.at, from.at, to) >= radius) return true;
-  if (f.kind == Terrain::FeatureKind::edge) {
-    const auto aside = [&](Point p) { return (p.y - f.at.y) * f.gx - (p.x - f.at.x) * f.gy; };
-    const Real a = aside(from.at), b = aside(to);
-    if (std::min(a, b) >= radius || std::max(a, b) <= -radius) return true;
-  }
+  if (f.kind == Terrain::FeatureKind::edge && f.is_clear_of(from.at, to, radius)) return true;
   const Point mid{(from.at.x + to.x) / 2, (from.at.y + to.y) / 2};
   const Real h = envelope_.clamped_height(other, mid);
   const Gradient g = patches.gradient(other, mid);

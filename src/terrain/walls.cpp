@@ -88,7 +88,7 @@ bool Envelope<Real>::back_to_back(const Bound& a, const Bound& b, const Box& box
 /// How far inside its wall a body is as high as a plane all over the box, given by its heights at the corners; infinite
 /// if that is far.
 template <class Real>
-Real Envelope<Real>::inset_of(Index body, const Wall& wall, const Box& box, const Real (&plane)[4]) const {
+Real Envelope<Real>::inset_of(Index body, const Wall& wall, const Box& box, const std::array<Real, 4>& plane) const {
   const std::array<Point, 4> corner = box.corners();
   Real excess = 0;  // of the plane over the rim
   for (int k = 0; k < 4; ++k)
@@ -98,17 +98,33 @@ Real Envelope<Real>::inset_of(Index body, const Wall& wall, const Box& box, cons
   return square < 0.5 ? patches_.radius() * square / 2 * (1 + square) : Real(std::numeric_limits<double>::infinity());
 }
 
+/// True if the rim of a wall is above the lower patch all over the box.
+template <class Real>
+bool Envelope<Real>::is_above(Index upper, const Wall& wall, Index lower, const BoxFrame& frame) const {
+  const Point p = support_point(lower, frame);
+  const Gradient g = patches_.gradient(lower, p);
+  const std::array<Point, 4> corner = frame.box.corners();
+  return std::all_of(corner.begin(), corner.end(), [&](Point q) {
+    return patches_.extended_height(lower, p) + g.x * (q.x - p.x) + g.y * (q.y - p.y) <
+           rim_height(upper, q) - wall.lowered - noise_;
+  });
+}
+
+template <class Real>
+std::optional<BoundOf<Real>> Envelope<Real>::wall_above(Index upper, Index lower, const Box& box) const {
+  const BoxFrame frame(box);
+  const std::optional<Wall> wall = wall_through(upper, frame);
+  return wall && is_above(upper, *wall, lower, frame) ? std::optional(wall->outline) : std::nullopt;
+}
+
 template <class Real>
 std::optional<WallBesideOf<Real>> Envelope<Real>::wall_beside(Index upper, Index lower, const Box& box) const {
-  if (const std::optional<Bound> above = wall_above(upper, lower, box)) return WallBesideOf<Real>{*above, 0};
   const BoxFrame frame(box);
   const std::optional<Wall> wall = wall_through(upper, frame);
   if (!wall) return std::nullopt;
-  const Plane plane = support(lower, frame);
-  const Real hx = plane.gradient.x * box.half_x(), hy = plane.gradient.y * box.half_y(), h = plane.height;
-  const Real inset = inset_of(upper, *wall, box, {h - hx - hy, h + hx - hy, h + hx + hy, h - hx + hy});
-  if (!is_finite(inset)) return std::nullopt;
-  return WallBesideOf<Real>{wall->outline, inset};
+  if (is_above(upper, *wall, lower, frame)) return WallBesideOf<Real>{wall->outline, 0};
+  const Real inset = inset_of(upper, *wall, box, support(lower, frame).at_corners(frame));
+  return is_finite(inset) ? std::optional(WallBesideOf<Real>{wall->outline, inset}) : std::nullopt;
 }
 
 /// True if what shows of a patch beyond the wall of a body that hides the rest is below another body: it lies in a
