@@ -1,4 +1,5 @@
 """What the tables of bench/README.md share: one measurement in a process of its own with limits on time and memory."""
+import argparse
 import json
 import os
 import platform
@@ -6,6 +7,7 @@ import resource
 import subprocess
 import sys
 import threading
+from pathlib import Path
 
 
 def run_case(program, limit, arguments):
@@ -26,6 +28,35 @@ def run_case(program, limit, arguments):
     reason = f"> {limit:g} s" if late.is_set() else "failed"
     print(f"    {reason}: {complaint.strip()}", file=sys.stderr)
     return {"failed": reason, "peak": peak}
+
+
+class Bench:
+    """Runs cases of one program and keeps every measurement as a line of JSON."""
+
+    def __init__(self, arguments):
+        self.program, self.limit = arguments.program.resolve(), arguments.limit
+        self.log = open(arguments.log, "w")
+
+    def measure(self, title, record, arguments):
+        """`record`: what the line tells of the case besides the measurement."""
+        print(f"  {title}", file=sys.stderr, flush=True)
+        result = run_case(self.program, self.limit, arguments)
+        self.log.write(json.dumps({**record, **result}) + "\n")
+        self.log.flush()
+        return result
+
+
+def bench_arguments(description, program, sizes):
+    """The options that the tables of zones, diagrams and rivers have in common; more may be added."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--program", type=Path, required=True, help=f"the built {program}")
+    parser.add_argument("--data", type=Path, required=True, help="directory of WKT files")
+    parser.add_argument("--world", type=Path, help="GMT text of the world's rivers")
+    parser.add_argument("--sizes", default=sizes, help="segments of the rows that grow")
+    parser.add_argument("--limit", type=float, default=120, help="seconds a case may take (default: 120)")
+    parser.add_argument("--log", type=Path, required=True, help="every measurement as a line of JSON")
+    parser.add_argument("--output", type=Path, required=True, help="the tables in Markdown")
+    return parser
 
 
 def table(head, rows):

@@ -3,12 +3,12 @@
 tables of bench/README.md: the surface, its growth with the number of triangles, the drop cutter, and peers beside both.
 """
 import argparse
-import json
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from cases import machine, run_case, table  # noqa: E402
+import cases  # noqa: E402
+from cases import machine, table  # noqa: E402
 
 CELLS = {"jacksboro": 92, "bigtujunga": 30}  # sizes of their cells; the first is in degrees in its file
 RADII = [1, 3, 10, 30]
@@ -26,22 +26,18 @@ class Terrain:
         return self.name + (" as a mesh" if self.form == "mesh" else "") + count
 
 
-class Bench:
+class Bench(cases.Bench):
     def __init__(self, arguments):
-        self.program, self.limit = arguments.program.resolve(), arguments.limit
-        self.log, self.radii, self.growth = open(arguments.log, "w"), arguments.radii, arguments.growth
+        super().__init__(arguments)
+        self.radii, self.growth = arguments.radii, arguments.growth
         self.given_up = set()
 
     def case(self, operation, terrain, radius, step=1.0, threads=1):
-        print(f"  {operation:9} {terrain.name:16} {terrain.form} R={radius:<4g} step={step:g} threads={threads}",
-              file=sys.stderr, flush=True)
-        arguments = [operation, terrain.source, terrain.form, terrain.cell, repr(radius), repr(step), threads, 1]
-        result = run_case(self.program, self.limit, arguments)
         record = {"operation": operation, "terrain": terrain.name, "form": terrain.form, "radius_cells": radius, "step": step,
                   "threads": threads}
-        self.log.write(json.dumps({**record, **result}) + "\n")
-        self.log.flush()
-        return result
+        title = f"{operation:9} {terrain.name:16} {terrain.form} R={radius:<4g} step={step:g} threads={threads}"
+        return self.measure(title, record, [operation, terrain.source, terrain.form, terrain.cell, repr(radius), repr(step),
+                                            threads, 1])
 
     def peer(self, operation, terrain, radius, step):
         """None where a coarser step was too much already."""

@@ -2,30 +2,23 @@
 """Runs voronoi_case over data, sizes and engines, each case in a process of its own with a time limit, and writes the
 table of bench/README.md: segment Voronoi diagrams by krepl, Boost.Polygon and CGAL.
 """
-import argparse
-import json
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from cases import machine, run_case, table  # noqa: E402
+import cases  # noqa: E402
+from cases import machine, table  # noqa: E402
 
 PACKAGES = ["libboost-dev", "libcgal-dev", "g++", "libtbb-dev"]
 FILES = ["river_new_hope_epsg32617_mm", "river_methow", "roads_monaco_epsg32632_mm", "ne_10m_rivers_europe_epsg3035_m",
          "ne_10m_railroads_north_america", "streets_tempe"]
 
 
-class Bench:
-    def __init__(self, arguments):
-        self.program, self.limit = arguments.program.resolve(), arguments.limit
-        self.log = open(arguments.log, "w")
-
+class Bench(cases.Bench):
     def case(self, engine, data, segments):
-        print(f"  {engine:6} {Path(data).stem:34} n={segments or 'all'}", file=sys.stderr, flush=True)
-        result = run_case(self.program, self.limit, [engine, data, segments])
-        self.log.write(json.dumps({"engine": engine, "data": Path(data).stem, **result}) + "\n")
-        self.log.flush()
-        return result
+        name = Path(data).stem
+        return self.measure(f"{engine:6} {name:34} n={segments or 'all'}", {"engine": engine, "data": name},
+                            [engine, data, segments])
 
 
 def cell(result, own=None):
@@ -47,15 +40,7 @@ def row(name, own, boost=None, cgal=None):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--program", type=Path, required=True, help="the built voronoi_case")
-    parser.add_argument("--data", type=Path, required=True, help="directory of WKT files")
-    parser.add_argument("--world", type=Path, help="GMT text of the world's rivers")
-    parser.add_argument("--sizes", default="10000,100000,1000000", help="segments of the rows that grow")
-    parser.add_argument("--limit", type=float, default=120, help="seconds a case may take (default: 120)")
-    parser.add_argument("--log", type=Path, required=True, help="every measurement as a line of JSON")
-    parser.add_argument("--output", type=Path, required=True, help="the table in Markdown")
-    arguments = parser.parse_args()
+    arguments = cases.bench_arguments(__doc__, "voronoi_case", "10000,100000,1000000").parse_args()
     about, bench, rows = machine(PACKAGES), Bench(arguments), []
     sizes = [int(size) for size in arguments.sizes.split(",")]
     for size in sizes:

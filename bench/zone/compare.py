@@ -2,14 +2,13 @@
 """Runs zone_case over data, radii and engines, each case in a process of its own with a time limit, and writes the tables
 of bench/README.md: krepl beside its peers on one thread, how far their answers are from krepl's, and growth with n.
 """
-import argparse
 import itertools
-import json
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from cases import machine, run_case, table  # noqa: E402
+import cases  # noqa: E402
+from cases import machine, table  # noqa: E402
 
 FILES = ["streets_tempe", "roads_roxel_epsg32632_mm", "river_new_hope_epsg32617_mm", "river_methow",
          "roads_monaco_epsg32632_mm", "ne_10m_rivers_europe_epsg3035_m"]
@@ -20,19 +19,11 @@ PACKAGES = ["libgeos-dev", "libpolyclipping-dev", "libboost-dev", "g++", "libtbb
 BOOST_LIMIT = 20_000  # vertices; above, Boost never finishes within the time limit
 
 
-class Bench:
-    def __init__(self, arguments):
-        self.program, self.limit = arguments.program.resolve(), arguments.limit
-        self.log = open(arguments.log, "w")
-
+class Bench(cases.Bench):
     def case(self, engine, path, radius, chord=1e-3, segments=0, threads=1, runs=1):
-        print(f"  {engine:8} {path.stem:34} n={segments or 'all':>8} R={radius:<4g} chord={chord:g} threads={threads}",
-              file=sys.stderr, flush=True)
-        result = run_case(self.program, self.limit, [engine, path, segments, repr(radius), repr(chord), threads, runs])
         record = {"engine": engine, "data": path.stem, "radius_lengths": radius, "chord": chord, "threads": threads}
-        self.log.write(json.dumps({**record, **result}) + "\n")
-        self.log.flush()
-        return result
+        title = f"{engine:8} {path.stem:34} n={segments or 'all':>8} R={radius:<4g} chord={chord:g} threads={threads}"
+        return self.measure(title, record, [engine, path, segments, repr(radius), repr(chord), threads, runs])
 
 
 def cell(result, own=None):
@@ -120,15 +111,8 @@ def write_tables(out, about, speed, answers, grown, limit):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--program", type=Path, required=True, help="the built zone_case")
-    parser.add_argument("--data", type=Path, required=True, help="directory of WKT files")
-    parser.add_argument("--world", type=Path, help="GMT text of the world's rivers")
-    parser.add_argument("--limit", type=float, default=120, help="seconds a case may take (default: 120)")
-    parser.add_argument("--sizes", default="100000,1000000,10000000", help="segments of the growth table")
+    parser = cases.bench_arguments(__doc__, "zone_case", "100000,1000000,10000000")
     parser.add_argument("--only", default="compare,growth", help="which tables to make")
-    parser.add_argument("--log", type=Path, required=True, help="every measurement as a line of JSON")
-    parser.add_argument("--output", type=Path, required=True, help="the tables in Markdown")
     arguments = parser.parse_args()
     about, bench = machine(PACKAGES), Bench(arguments)
     paths = [p for p in (arguments.data / f"{name}.wkt" for name in FILES) if p.exists()]
