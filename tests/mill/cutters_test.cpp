@@ -8,6 +8,7 @@
 #include <random>
 
 #include "mill/cutter_check.hpp"
+#include "mill/threads_check.hpp"
 #include "support/environment.hpp"
 #include "support/small_terrain.hpp"
 
@@ -197,18 +198,10 @@ TEST(Cutters, AreTheSameForAnyNumberOfThreads) {
   const auto made = Terrain::from_grid({8, 8, {0, 0}, 1, 1, Terrain::Split::rising}, heights);
   ASSERT_TRUE(made);
   const auto part = std::make_shared<const Terrain>(*made);
-  Context one, three;
-  one.threads = 1, three.threads = 3;
-  const auto expect_same = [](const Result<MilledPath>& a, const Result<MilledPath>& b) {
-    ASSERT_TRUE(a && b);
-    ASSERT_EQ(a->path.moves.size(), b->path.moves.size());
-    for (std::size_t k = 0; k < a->path.moves.size(); ++k)
-      ASSERT_TRUE(a->path.moves[k].end == b->path.moves[k].end && a->path.moves[k].centre == b->path.moves[k].centre);
-  };
   const Cutter bull = *Cutter::bull_nose(2, 0.3);
-  expect_same(mill_waterline(part, waterlines_for(bull, 0.8), one),
-              mill_waterline(part, waterlines_for(bull, 0.8), three));
-  expect_same(mill_parallel(part, options_for(bull), one), mill_parallel(part, options_for(bull), three));
+  expect_same_from_any_threads(
+      [&](const Context& context) { return mill_waterline(part, waterlines_for(bull, 0.8), context); });
+  expect_same_from_any_threads([&](const Context& context) { return mill_parallel(part, options_for(bull), context); });
 }
 
 TEST(Cutters, ThatAStrategyCannotTakeAreErrors) {

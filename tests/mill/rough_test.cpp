@@ -9,6 +9,7 @@
 
 #include "krepl/simulation.hpp"
 #include "mill/cutter_check.hpp"
+#include "mill/threads_check.hpp"
 #include "support/environment.hpp"
 #include "support/small_terrain.hpp"
 
@@ -304,19 +305,7 @@ TEST(Roughing, IsTheSameForAnyNumberOfThreads) {
   const auto part = bumps(3);
   RoughOptions o;
   o.tool.radius = 1.5, o.step_over = 1, o.step_down = 1.1;
-  std::vector<Move> first;
-  for (const unsigned threads : {1u, 2u}) {
-    Context context;
-    context.threads = threads;
-    const auto milled = mill_rough(part, o, context);
-    ASSERT_TRUE(milled) << milled.error().text();
-    if (threads == 1) {
-      first = milled->path.moves;
-      continue;
-    }
-    ASSERT_EQ(first.size(), milled->path.moves.size());
-    for (std::size_t k = 0; k < first.size(); ++k) ASSERT_TRUE(first[k].end == milled->path.moves[k].end) << k;
-  }
+  expect_same_from_any_threads([&](const Context& context) { return mill_rough(part, o, context); });
 }
 
 TEST(Roughing, ChecksItsOptions) {

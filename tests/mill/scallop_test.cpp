@@ -8,6 +8,7 @@
 
 #include "mill/left_check.hpp"
 #include "mill/path_check.hpp"
+#include "mill/threads_check.hpp"
 #include "support/environment.hpp"
 
 namespace krepl::test {
@@ -103,19 +104,7 @@ TEST(ScallopPasses, AreTheSameForAnyNumberOfThreads) {
   ASSERT_NE(part, nullptr);
   ScallopOptions o;
   o.tool.radius = 3, o.scallop = 1;
-  std::vector<Move> first;
-  for (const unsigned threads : {1u, 2u}) {
-    Context context;
-    context.threads = threads;
-    const auto milled = mill_scallop(part, o, context);
-    ASSERT_TRUE(milled) << milled.error().text();
-    if (threads == 1) {
-      first = milled->path.moves;
-      continue;
-    }
-    ASSERT_EQ(first.size(), milled->path.moves.size());
-    for (std::size_t k = 0; k < first.size(); ++k) ASSERT_TRUE(first[k].end == milled->path.moves[k].end) << k;
-  }
+  expect_same_from_any_threads([&](const Context& context) { return mill_scallop(part, o, context); });
 }
 
 TEST(ScallopPasses, RefuseWhatHasNoMeaning) {

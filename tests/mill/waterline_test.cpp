@@ -8,6 +8,7 @@
 #include <set>
 
 #include "mill/path_check.hpp"
+#include "mill/threads_check.hpp"
 #include "support/environment.hpp"
 #include "support/small_terrain.hpp"
 
@@ -293,18 +294,10 @@ TEST(Pencil, ChecksItsOptions) {
 
 TEST(Waterline, IsTheSameForAnyNumberOfThreads) {
   const auto part = made_block();
-  Context one, three;
-  one.threads = 1, three.threads = 3;
   PencilOptions pencil;
   pencil.tool.radius = 0.6;
-  const auto expect_same = [](const Result<MilledPath>& a, const Result<MilledPath>& b) {
-    ASSERT_TRUE(a && b);
-    ASSERT_EQ(a->path.moves.size(), b->path.moves.size());
-    for (std::size_t k = 0; k < a->path.moves.size(); ++k)
-      ASSERT_TRUE(a->path.moves[k].end == b->path.moves[k].end && a->path.moves[k].centre == b->path.moves[k].centre);
-  };
-  expect_same(mill_waterline(part, options(1, 0.7), one), mill_waterline(part, options(1, 0.7), three));
-  expect_same(mill_pencil(part, pencil, one), mill_pencil(part, pencil, three));
+  expect_same_from_any_threads([&](const Context& context) { return mill_waterline(part, options(1, 0.7), context); });
+  expect_same_from_any_threads([&](const Context& context) { return mill_pencil(part, pencil, context); });
 }
 
 TEST(Waterline, IsBesideRandomTerrains) {
