@@ -98,8 +98,6 @@ PassResult make_pass(const mill::LiftedCutter& cutter, const mill::PassLayout& l
   return result;
 }
 
-Error cancelled() { return {ErrorCode::cancelled, "cancelled", "", ""}; }
-
 constexpr int rounds_along = 5, most_rounds = 12;  // of passes between others, then across them
 
 /// The passes of a layout as cuts, and further ones where the scallop is not proven to be kept.
@@ -124,7 +122,7 @@ class ParallelPasses {
   const mill::PassLimits& limits() const { return limits_; }
 
   Result<std::vector<Cut>> run() {
-    if (!make_cuts(0, context_)) return cancelled();
+    if (!make_cuts(0, context_)) return mill::cancelled();
     if (o_.scallop != 0)
       if (Status proven = prove(); !proven) return proven.error();
     return in_order();
@@ -180,13 +178,13 @@ class ParallelPasses {
     for (int round = 1;; ++round) {
       for (; proven < passes_.size(); ++proven)
         for (const Cut& cut : passes_[proven].result.cuts) proof.add(cut);
-      if (!proof.run(tiles, is_of_interest, quiet_, open, open_tiles)) return cancelled();
+      if (!proof.run(tiles, is_of_interest, quiet_, open, open_tiles)) return mill::cancelled();
       if (open.empty() || round > most_rounds) break;
       const std::vector<mill::PassGaps::Extra> extra =
           round <= rounds_along ? gaps_->serve(open, *contact) : gaps_->serve_across(open);
       for (const mill::PassGaps::Extra& e : extra)
         passes_.push_back({2 * e.gap, e.pass, e.is_across ? &gaps_->across() : &layout_, {}});
-      if (!make_cuts(proven, quiet_)) return cancelled();
+      if (!make_cuts(proven, quiet_)) return mill::cancelled();
       tiles = open_tiles;
     }
     report_.open_places = open.size();

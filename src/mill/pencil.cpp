@@ -61,8 +61,6 @@ Cut make_cut(const Chain& chain, const mill::SpaceLattice& lattice, double withi
   return cut;
 }
 
-Error cancelled() { return {ErrorCode::cancelled, "cancelled", "", ""}; }
-
 /// Cuts along the valleys, and what they need to be linked.
 Result<std::vector<Cut>> cut_valleys(const std::shared_ptr<const Terrain>& part, const DropCutter& cutter,
                                      const Plan& plan, const PencilOptions& o, MillReport& report,
@@ -81,7 +79,7 @@ Result<std::vector<Cut>> cut_valleys(const std::shared_ptr<const Terrain>& part,
   const double shortest = o.shortest < 0 ? o.tool.radius : o.shortest;
   if (!mill::find_valleys(*surface, *foot, {band.within / 8, o.valley_angle * std::numbers::pi / 180, shortest}, quiet,
                           valleys))
-    return cancelled();
+    return mill::cancelled();
   sort_chains(valleys.chains);
   report.skipped_cuts = valleys.too_short;
   const Point3 origin = part->origin();
@@ -96,7 +94,7 @@ Result<std::vector<Cut>> cut_valleys(const std::shared_ptr<const Terrain>& part,
     lifted[k] = free.settle(cuts[k], o.motion.plunge_feed);
     progress.add(1);
   });
-  if (!done) return cancelled();
+  if (!done) return mill::cancelled();
   for (const auto& chain : valleys.chains) report.curve_points += chain.size();
   for (const std::size_t n : lifted) report.lifted_moves += n;
   std::erase_if(cuts, [](const Cut& c) { return c.moves.empty(); });

@@ -10,6 +10,7 @@
 namespace krepl::mill {
 
 Error usage(const std::string& what, const std::string& remedy) { return {ErrorCode::usage, what, "", remedy}; }
+Error cancelled() { return {ErrorCode::cancelled, "cancelled", "", ""}; }
 
 bool is_positive(double x) { return std::isfinite(x) && x > 0; }
 

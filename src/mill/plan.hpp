@@ -41,8 +41,9 @@ struct Band {
 /// `farther`: what a cutter's growth is multiplied with at its rim (roundness()).
 Band make_band(const Plan& plan, const MillAccuracy& accuracy, double farther = 1);
 
-/// An Error of code usage.
+/// Errors of code usage and cancelled.
 Error usage(const std::string& what, const std::string& remedy);
+Error cancelled();
 bool is_positive(double x);
 
 /// What a strategy can do paths of.

@@ -24,8 +24,6 @@ namespace {
 constexpr double steps_a_spacing = 8;
 constexpr double most_places = 0x1p23;
 
-Error cancelled() { return {ErrorCode::cancelled, "cancelled", "", ""}; }
-
 /// Places where the tool has been on a level, to find the nearest.
 class VisitedPlaces {
  public:

@@ -34,8 +34,6 @@ constexpr double most_places = 0x1p24;
 constexpr double part_of_reach = 0.9;  // half the distance of passes, of what a plane allows
 constexpr int halvings = 6, touches = 4;  // rounds of lines between others, then of short ones
 
-Error cancelled() { return {ErrorCode::cancelled, "cancelled", "", ""}; }
-
 class ScallopPasses {
  public:
   ScallopPasses(const DropCutter& cutter, const Plan& plan, const Band& band, const ScallopJob& job, MillReport& report,

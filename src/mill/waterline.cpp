@@ -92,8 +92,6 @@ class LevelCuts {
   mill::FlatFitOptions fit_;
 };
 
-Error cancelled() { return {ErrorCode::cancelled, "cancelled", "", ""}; }
-
 /// Contours of levels as rings, relative to the part's origin.
 class LevelSource {
  public:
@@ -134,7 +132,7 @@ class TracedLevels final : public LevelSource {
     const bool done = kernel::parallel_blocks(context, levels.size(), 1, [&](std::size_t n, std::size_t) {
       traced[n] = mill::trace_level_set({cutter_, lift_}, levels[n], options_, context, rings[n]);
     });
-    if (!done) return cancelled();
+    if (!done) return mill::cancelled();
     for (std::size_t n = 0; n < levels.size(); ++n)
       if (!traced[n])
         return Error{ErrorCode::computation, "the contour of level " + shown(levels[n]) + " cannot be traced", "",
@@ -185,7 +183,7 @@ class WaterlineCuts {
       cuts[begin + k] = shape_.make(lines[k], line_heights[k]);
       lifted[k] = free.settle(cuts[begin + k], o_.motion.plunge_feed);
     });
-    if (!done) return cancelled();
+    if (!done) return mill::cancelled();
     for (const std::size_t n : lifted) report_.lifted_moves += n;
     return std::monostate{};
   }
