@@ -143,6 +143,23 @@ bool Envelope<Real>::is_beyond_wall(Index patch, Point p) const {
                      [&](const Bound& b) { return b.rim && b.sign() * b.value(p, patches_.square_radius()) > 0; });
 }
 
+/// Of two patches that end in walls at one place and on one side, the one whose wall is further in: true if the other patch is at
+/// least as high there, so that the two have met before. Nothing where the walls stand back to back.
+template <class Real>
+std::optional<bool> Envelope<Real>::meet_before_wall(Index a, Index b, Point p) const {
+  const Real square = patches_.square_radius();
+  const Bound *walls[2] = {rim_at(a, p), rim_at(b, p)};
+  const Gradient g = bound_gradient(*walls[0], p), h = bound_gradient(*walls[1], p);
+  if (walls[0]->sign() * walls[1]->sign() * (g.x * h.x + g.y * h.y) <= 0) return std::nullopt;
+  for (const auto& [inner, outer, to_inner, own] : {std::tuple{a, walls[1], g, walls[0]}, std::tuple{b, walls[0], h, walls[1]}}) {
+    const Real step = own->value(p, square) / (to_inner.x * to_inner.x + to_inner.y * to_inner.y);
+    const Point foot{p.x - step * to_inner.x, p.y - step * to_inner.y};
+    if (outer->sign() * outer->value(foot, square) > 0) continue;
+    return clamped_height(inner == a ? b : a, foot) >= rim_height(inner, foot);
+  }
+  return std::nullopt;
+}
+
 template <class Real>
 Meeting Envelope<Real>::meeting(Index a, Index b, Point p) const {
   if (a == none || b == none) return Meeting::rim;
@@ -159,6 +176,9 @@ Meeting Envelope<Real>::meeting(Index a, Index b, Point p) const {
   // Just before its end a patch falls steeply: where the other one is higher than its rim, it has met that one before.
   if (a_ends != b_ends && (a_ends ? difference < 0 : difference > 0))
     return is_beyond_wall(a_ends ? b : a, p) ? Meeting::rim : Meeting::valley;
+  if (a_ends && b_ends && is_fine<Real>) {
+    if (const std::optional<bool> met = meet_before_wall(a, b, p)) return *met ? Meeting::valley : Meeting::rim;
+  }
   const Gradient g = a_ends ? rim_gradient(a) : patches_.gradient(a, p),
                  h = b_ends ? rim_gradient(b) : patches_.gradient(b, p);
   return absolute(difference) <= 64 * tolerance_ * (1 + norm(g.x - h.x, g.y - h.y)) ? Meeting::valley : Meeting::rim;

@@ -154,7 +154,9 @@ class Envelope {
   };
   Range aside_range(Index edge, const Box& box, Where where) const;
   Range slope_across(Index edge, const Box& box, Where where) const;
+  std::optional<bool> meet_before_wall(Index a, Index b, Point p) const;
   bool is_beyond_wall(Index patch, Point p) const;
+  Index body_at(Point p, std::span<const Index> ends, std::span<const Index> candidates) const;
   bool misses(const Line& line, Real t0, Real t1, Index i) const;
   void section(const Line& line, Real t0, Index l0, Real t1, Index l1, std::size_t first, int depth);
   void drop_slivers(const Line& line, Index start, std::size_t first, std::vector<LineCrossing>& crossings) const;

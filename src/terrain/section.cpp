@@ -91,6 +91,23 @@ bool Envelope<Real>::misses(const Line& line, Real t0, Real t1, Index i) const {
   return p.is_clear_of(line.point(t0), line.point(t1), radius);
 }
 
+/// The label at a place where no patch is but a body of a label at an end of the stretch: two patches next to each other may hide
+/// each other but for less than is told apart. A body is of the vertices and edges around its patch, too, and these go first.
+template <class Real>
+Index Envelope<Real>::body_at(Point p, std::span<const Index> ends, std::span<const Index> candidates) const {
+  Index best = none;
+  Real highest = below_everything;
+  for (const Index l : ends) {
+    const Real height = l == none ? below_everything : patches_.body_height(l, p);
+    if (height > highest) highest = height, best = l;
+  }
+  if (best == none) return none;
+  for (const Index c : candidates) {
+    if (patches_[c].kind < patches_[best].kind && patches_.body_height(c, p) >= highest - noise_) best = c;
+  }
+  return best;
+}
+
 /// stack_[first ..]: the candidates of the stretch around this one.
 template <class Real>
 void Envelope<Real>::section(const Line& line, Real t0, Index l0, Real t1, Index l1, std::size_t first, int depth) {
@@ -146,15 +163,7 @@ void Envelope<Real>::section(const Line& line, Real t0, Index l0, Real t1, Index
   }
   const Real tm = t0 + (t1 - t0) / 2;
   Index lm = winner(line.point(tm), left());
-  if (lm == none) {
-    // Where the body of a label at an end lies there is something: two patches next to each other may hide each other but for
-    // less than is told apart.
-    Real highest = below_everything;
-    for (const Index l : ends) {
-      const Real height = l == none ? below_everything : patches_.body_height(l, line.point(tm));
-      if (height > highest) highest = height, lm = l;
-    }
-  }
+  if (lm == none) lm = body_at(line.point(tm), ends, left());
   section(line, t0, l0, tm, lm, begin, depth + 1);
   section(line, tm, lm, t1, l1, begin, depth + 1);
   stack_.resize(begin);
