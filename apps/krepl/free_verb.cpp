@@ -325,14 +325,7 @@ void add_free_verb(Verb& program, Session& session) {
   verb.add_option("--max-error", options->max_error,
                   "Components: largest deviation of chords where a format has no arcs (default: R / 1000)")
       .type_name("LENGTH");
-  verb.add_option("--z-scale", options->terrain.z_scale, "Terrain: multiply heights by this number (default: 1)")
-      .type_name("FACTOR");
-  verb.add_option("--split", options->terrain.split,
-                  "Raster: diagonal that splits a cell: rising (default), falling, shorter")
-      .type_name("NAME");
-  verb.add_option("--band", options->terrain.request.band, "Raster: band to read (default: 1)")
-      .type_name("N")
-      .positive();
+  add_reading_options(verb, options->terrain, "Terrain");
   session.add_common_options(verb);
   session.on_run(verb, [options, &session] { return run_free(*options, session); });
 }

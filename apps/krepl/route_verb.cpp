@@ -173,14 +173,7 @@ void add_flight_options(Verb& verb, RouteVerbOptions& options) {
       .type_name("WHAT");
   verb.add_option("--step", options.step, "Terrain: distance of the lattice that is searched (default: by the extent)")
       .type_name("LENGTH");
-  verb.add_option("--z-scale", options.terrain.z_scale, "Terrain: multiply heights by this number (default: 1)")
-      .type_name("FACTOR");
-  verb.add_option("--split", options.terrain.split,
-                  "Raster: diagonal that splits a cell: rising (default), falling, shorter")
-      .type_name("NAME");
-  verb.add_option("--band", options.terrain.request.band, "Raster: band to read (default: 1)")
-      .type_name("N")
-      .positive();
+  add_reading_options(verb, options.terrain, "Terrain");
 }
 
 }  // namespace

@@ -42,12 +42,16 @@ void add_terrain_options(Verb& verb, TerrainOptions& options, const std::string&
   verb.add_option("--to-crs", options.request.to_crs,
                   "Raster: plane coordinate system to resample the heights to; auto chooses one")
       .type_name("EPSG:n|auto");
-  verb.add_option("--z-scale", options.z_scale, "Multiply heights by this number (default: 1)").type_name("FACTOR");
-  verb.add_option("--split", options.split, "Raster: diagonal that splits a cell: rising (default), falling, shorter")
+  add_reading_options(verb, options);
+}
+
+void add_reading_options(Verb& verb, TerrainOptions& options, const std::string& where) {
+  const std::string raster = where.empty() ? "Raster" : where;
+  const std::string heights = where.empty() ? "Multiply heights" : where + ": multiply heights";
+  verb.add_option("--z-scale", options.z_scale, heights + " by this number (default: 1)").type_name("FACTOR");
+  verb.add_option("--split", options.split, raster + ": diagonal that splits a cell: rising (default), falling, shorter")
       .type_name("NAME");
-  verb.add_option("--band", options.request.band, "Raster: band to read (default: 1)")
-      .type_name("N")
-      .positive();
+  verb.add_option("--band", options.request.band, raster + ": band to read (default: 1)").type_name("N").positive();
 }
 
 Result<input::TerrainRequest> terrain_request(const TerrainOptions& options) {

@@ -22,6 +22,10 @@ struct TerrainOptions {
 /// `options` must live until the verb has run.
 void add_terrain_options(Verb& verb, TerrainOptions& options, const std::string& name = "IN");
 
+/// Declares --z-scale, --split and --band alone, for a verb that names its terrain in its own way. `where` begins their help
+/// texts where not every input of the verb is a terrain.
+void add_reading_options(Verb& verb, TerrainOptions& options, const std::string& where = "");
+
 /// What the options mean; an Error of code usage names what is wrong. To be called before anything is read.
 Result<input::TerrainRequest> terrain_request(const TerrainOptions& options);
 

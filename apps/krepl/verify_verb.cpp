@@ -404,11 +404,7 @@ void add_verify_verb(Verb& program, Session& session) {
       .type_name("Z");
   verb.add_option("--max-slope", options->max_slope, "Routes over a terrain: largest rise over horizontal way allowed")
       .type_name("SLOPE");
-  verb.add_option("--z-scale", options->terrain.z_scale, "Terrains: as the result was made").type_name("FACTOR");
-  verb.add_option("--split", options->terrain.split, "Rasters: as the result was made").type_name("NAME");
-  verb.add_option("--band", options->terrain.request.band, "Rasters: as the result was made")
-      .type_name("N")
-      .positive();
+  add_reading_options(verb, options->terrain, "As the terrain was read");
   session.add_common_options(verb);
   session.on_run(verb, [options, &session] { return run_verify(*options, session); });
 }

@@ -110,11 +110,7 @@ void add_view_verb(Verb& program, Session& session) {
   verb.add_option("--crs", options->terrain.request.crs,
                   "Surface, tool path: coordinate system of the input, in place of what it says")
       .type_name("EPSG:n");
-  verb.add_option("--z-scale", options->terrain.z_scale, "Surface, tool path: as given to krepl terrain").type_name("FACTOR");
-  verb.add_option("--split", options->terrain.split, "Surface, tool path: as given to krepl terrain").type_name("NAME");
-  verb.add_option("--band", options->terrain.request.band, "Surface, tool path: as given to krepl terrain")
-      .type_name("N")
-      .positive();
+  add_reading_options(verb, options->terrain, "Surface, tool path, as the terrain was read");
   verb.add_option("--max-error", options->max_error,
                   "Surface: largest distance of the triangles that are drawn from it (default: radius / 200)")
       .type_name("LENGTH");
