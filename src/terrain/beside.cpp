@@ -17,6 +17,27 @@ bool Envelope<Real>::precedes(Index a, Index b) const {
   return f.feature < g.feature;
 }
 
+template <class Real>
+bool Envelope<Real>::are_coplanar(Index a, Index b, const Box& box) const {
+  const Patch &f = patches_[a], &g = patches_[b];
+  if (f.kind != FeatureKind::face || g.kind != FeatureKind::face) return false;
+  const Point mid = box.middle();
+  const Real dx = absolute(f.gx - g.gx), dy = absolute(f.gy - g.gy);
+  const Real apart = absolute(patches_.extended_height(a, mid) - patches_.extended_height(b, mid));
+  return apart + dx * box.half_x() + dy * box.half_y() <= noise_;
+}
+
+/// True if a face that may be equally high as another one counts as seen then, and reaches into the box by more than is told
+/// apart.
+template <class Real>
+bool Envelope<Real>::shows_first(Index i, Index other, const BoxFrame& box) const {
+  if (patches_[i].kind != FeatureKind::face || patches_[other].kind != FeatureKind::face || !precedes(i, other)) return false;
+  const std::span<const Bound> sides = patches_.bounds(i);
+  return std::all_of(sides.begin(), sides.end(), [&](const Bound& b) {
+    return (b.negative ? extreme<1>(b, box) : extreme<-1>(b, box)) < -tolerance_;
+  });
+}
+
 /// Two edges that run beside or above each other, as seen from above. With u(b) = sqrt(R^2 - b^2) for the distance b
 /// from one axis and b + e from the other, and s between b / u(b) at the two, their heights differ by
 ///   level + (q_k - q_c) u(b) + q_c e s,

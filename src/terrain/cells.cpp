@@ -244,9 +244,7 @@ bool Cells<Real>::curve_is_simple(const Turn& t, const Box& box) const {
         }))
       return true;
   }
-  // Of two faces in one plane the first one shows wherever it is: along its straight sides.
-  const Index first = std::min(t.before, t.after);
-  if (t.before != none && t.after != none && are_coplanar(t.before, t.after, box)) return !corner_in(first, box);
+  if (const Index first = first_in_plane(t, box); first != none) return !corner_in(first, box);
   // Along an edge its cylinder rises evenly, even near the rim.
   for (const Index l : {t.before, t.after}) {
     const Patch& f = envelope_.patches()[l];
@@ -312,14 +310,26 @@ bool Cells<Real>::stays_valley(const Turn& from, Point to, const Box& box) const
   return true;
 }
 
+/// Of two faces in one plane the first one shows wherever it is: along its straight sides. None if the labels are no such
+/// faces.
 template <class Real>
-bool Cells<Real>::are_coplanar(Index a, Index b, const Box& box) const {
-  const PatchSet<Real>& patches = envelope_.patches();
-  if (patches[a].kind != Terrain::FeatureKind::face || patches[b].kind != Terrain::FeatureKind::face) return false;
-  const Point mid = box.middle();
-  const Real dx = absolute(patches[a].gx - patches[b].gx), dy = absolute(patches[a].gy - patches[b].gy);
-  const Real apart = absolute(patches.extended_height(a, mid) - patches.extended_height(b, mid));
-  return apart + dx * box.half_x() + dy * box.half_y() <= envelope_.noise();
+Index Cells<Real>::first_in_plane(const Turn& t, const Box& box) const {
+  if (t.meeting != Meeting::valley || !envelope_.are_coplanar(t.before, t.after, box)) return none;
+  return std::min(t.before, t.after);
+}
+
+/// The one corner in the box of the first of two faces in one plane.
+template <class Real>
+std::optional<PointOf<Real>> Cells<Real>::corner_of_first(const Turn& t, const Box& box) const {
+  const Index first = first_in_plane(t, box);
+  std::optional<Point> corner;
+  if (first == none) return corner;
+  for (const Point c : envelope_.patches().corners(first)) {
+    if (!box.contains(c)) continue;
+    if (corner) return std::nullopt;
+    corner = c;
+  }
+  return corner;
 }
 
 /// Where two cylinders are equally high and tangent at once, if that is in the box: a ball there touches the point in
@@ -370,6 +380,10 @@ template <class Real>
 bool Cells<Real>::settle_arc(const Box& box, bool smallest) {
   const Turn &a = turns_[0], &b = turns_[1];
   if (a.meeting != b.meeting) return settle_star(box, smallest);  // where a valley ends in a wall
+  if (const std::optional<Point> corner = corner_of_first(a, box)) {
+    add_vertex(*corner);
+    return true;
+  }
   if (!smallest && !(curve_is_simple(a, box) && stays_wall(a, b.at, box) && stays_valley(a, b.at, box))) return false;
   if (const std::optional<Point> p = crossing_of_edges(a, box))
     add_vertex(*p);

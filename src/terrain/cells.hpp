@@ -107,7 +107,9 @@ class Cells {
   bool stays_wall(const Turn& from, Point to, const Box& box) const;
   bool stays_valley(const Turn& from, Point to, const Box& box) const;
   bool cannot_close(Index a, Index b, const Box& box) const;
-  bool are_coplanar(Index a, Index b, const Box& box) const;
+  Index first_in_plane(const Turn& turn, const Box& box) const;
+  std::optional<Point> corner_of_first(const Turn& turn, const Box& box) const;
+  const Bound* nearest_side(Index patch, Point p) const;
   bool sides_of_one_patch(const Turn& s, const Turn& t, const Box& box, Index& patch) const;
   bool shows_all(const Cell& cell, std::span<Index> candidates);
   bool is_seen(Index label) const;

@@ -131,6 +131,8 @@ class Envelope {
   /// Height at p, a place on the border of the patch's domain: at a rim that of the rim.
   Real border_height(Index patch, Point p) const;
   Meeting meeting(Index a, Index b, Point p) const;
+  /// True if both are faces, equally high all over the box but for rounding.
+  bool are_coplanar(Index a, Index b, const Box& box) const;
   Gradient gradient_across(Index a, Index b, Meeting how, Point p) const;
 
  private:
@@ -177,6 +179,7 @@ class Envelope {
   bool is_above(Index upper, const Wall& wall, Index lower, const BoxFrame& frame) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
   bool precedes(Index a, Index b) const;
+  bool shows_first(Index patch, Index other, const BoxFrame& box) const;
   bool lies_in(Index lower, Index upper) const;
   bool hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up = 0, Real allowed = 0) const;
   bool hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const;

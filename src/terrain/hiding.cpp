@@ -172,6 +172,7 @@ class Envelope<Real>::Cover {
 
   /// True if the patch is nowhere seen.
   bool hides(Index c) {
+    hidden_ = c;
     if (hides(c, envelope_.support(c, frame_))) return true;
     const Patch& f = envelope_.patches_[c];
     return envelope_.is_steep(f) && hides(c, envelope_.plane_of(f, frame_.mid));
@@ -182,6 +183,7 @@ class Envelope<Real>::Cover {
   bool hides_within_ends(Index c) {
     const Patch& f = envelope_.patches_[c];
     if (f.kind == FeatureKind::face) return false;
+    hidden_ = c;
     for (const Bound& b : envelope_.patches_.bounds(c)) {
       if (b.type != BoundType::cone || !(b.sign() * b.c > 0)) continue;
       const Gradient slope{-b.nx / b.c, -b.ny / b.c};
@@ -233,7 +235,7 @@ class Envelope<Real>::Cover {
     if (b.covers == Body::Covers::unknown) {
       b.covers = envelope_.domain_covers(b.label, frame_) ? Body::Covers::yes : Body::Covers::no;
     }
-    return b.covers == Body::Covers::yes;
+    return b.covers == Body::Covers::yes && !envelope_.shows_first(hidden_, b.label, frame_);
   }
 
   void end_at_wall(Body& b) {
@@ -311,6 +313,7 @@ class Envelope<Real>::Cover {
 
   const Envelope& envelope_;
   const BoxFrame& frame_;
+  Index hidden_ = none;  // what is asked for
   Real noise_ = 0;  // of heights on a slope like that of what is to be hidden
   std::size_t bodies_;
   int step_ = 1;  // a line has two ends
@@ -409,6 +412,7 @@ bool Envelope<Real>::hidden_within_tolerance(Index i, std::span<const Index> upp
   const Real rim_up = square_root(patches_.radius() *
                                   rim_width_);  // above the foot of a wall, where both precisions leave out what shows
   for (std::size_t u = 0; u < uppers.size() && count < most && walls < most; ++u) {
+    if (shows_first(i, uppers[u], frame) && are_coplanar(i, uppers[u], box)) continue;
     if (hidden_beside(i, uppers[u], frame, rim_up) || (is_fine<Real> && lies_beyond_seam(i, uppers[u], frame, rim_up)))
       return true;
     bool reaches = true;

@@ -37,6 +37,15 @@ const BoundOf<Real>* Cells<Real>::side_along(const Turn& t) const {
   return nearest;
 }
 
+/// The side of a face that passes through a place.
+template <class Real>
+const BoundOf<Real>* Cells<Real>::nearest_side(Index face, Point p) const {
+  const std::span<const Bound> sides = envelope_.patches().bounds(face);
+  const auto distance = [&](const Bound& b) { return absolute(b.value(p, envelope_.patches().square_radius())); };
+  return &*std::min_element(sides.begin(), sides.end(),
+                            [&](const Bound& a, const Bound& b) { return distance(a) < distance(b); });
+}
+
 template <class Real>
 bool Cells<Real>::has_corner(Index patch, Point p) const {
   if (patch == none) return false;
@@ -163,6 +172,7 @@ std::optional<PointOf<Real>> Cells<Real>::star_point(const Box& box) const {
     const Turn& t = turns_[i];
     condition[i] = {nullptr, t.before, t.after, false};
     if (t.meeting != Meeting::valley && (condition[i].bound = side_along(t)) == nullptr) return std::nullopt;
+    if (const Index first = first_in_plane(t, box); first != none) condition[i].bound = nearest_side(first, t.at);
   }
   const std::array<Condition, 16> anywhere = condition;
   // Near the end of a patch its height falls like a square root; the height of the wall itself is smooth.
