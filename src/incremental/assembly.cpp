@@ -11,13 +11,27 @@ using incremental::Real;
 using incremental::Vector;
 using FeatureKind = Terrain::FeatureKind;
 
+namespace {
+
+/// The side of a face that lies in another one's plane turns at a corner.
+bool turns(const Arc& a, const Arc& b) {
+  using Shape = incremental::Curve::Shape;
+  if (a.curve->shape != Shape::line || b.curve->shape != Shape::line) return false;
+  constexpr Real straight = 1e-9L;
+  const Vector d = a.point(a.end) - a.point(a.begin), e = b.point(b.end) - b.point(b.begin);
+  return std::fabs(d.x * e.y - d.y * e.x) > straight * flat_distance({}, d) * flat_distance({}, e);
+}
+
+}  // namespace
+
 /// The half-edge continues beyond its end as the same edge.
 bool IncrementalAssembly::goes_on(Index h) const {
   const auto& around = map_.around(map_.origin(h ^ 1u));
   if (around.size() != 2) return false;
   const Index after = map_.next(h);
   const Arc &a = map_.arcs()[h / 2], &b = map_.arcs()[after / 2];
-  return map_.label(h) == map_.label(after) && map_.label(h ^ 1u) == map_.label(after ^ 1u) && a.kind == b.kind;
+  return map_.label(h) == map_.label(after) && map_.label(h ^ 1u) == map_.label(after ^ 1u) && a.kind == b.kind &&
+         !turns(a, b);
 }
 
 /// All of the edge that the half-edge is part of, in its direction.

@@ -79,6 +79,28 @@ TEST(Incremental, NeedleUnderAPlaneMeetsInAClosedCurve) {
   EXPECT_EQ(surface->counters().closed_components, 1u);
 }
 
+/// Where two triangles overlap in one plane, the first one shows in all of it, and its sides there turn at its corner.
+TEST(Incremental, OfTwoTrianglesInOnePlaneTheFirstOneShowsUpToItsCorner) {
+  const SmallTerrain c = mesh({{5, 4, 1}, {0, 2, 1}, {1, 1, 1}, {6, 0, 1}, {3, 6, 1}, {6, 6, 1}}, {{0, 1, 2}, {3, 4, 5}}, 0.25);
+  expect_agreement(c);
+  for (const Result<Surface>& surface : {surface_within(c, 10), incremental_surface(c)}) {
+    ASSERT_TRUE(surface);
+    const Subdivision& t = surface->subdivision();
+    const auto is_face = [&](std::size_t h) {
+      const auto f = surface->face_feature(t.face[h]);
+      return f != Surface::none && surface->terrain().corners(f).count == 3;
+    };
+    double length = 0;
+    for (Subdivision::Index e = 0; e < t.edge_count(); ++e) {
+      if (!is_face(2 * e) || !is_face(2 * e + 1)) continue;
+      const Point3 p = surface->vertex(t.origin[2 * e]), q = surface->vertex(t.origin[2 * e + 1]);
+      length += std::hypot(p.x - q.x, p.y - q.y);
+    }
+    // From where the sides come in to (5, 4).
+    EXPECT_NEAR(length, std::hypot(5 - 47.0 / 11, 4 - 38.0 / 11) + std::hypot(5 - 25.0 / 6, 4 - 11.0 / 3), 1e-9);
+  }
+}
+
 double between(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * (double(random() >> 11) * 0x1p-53);
 }
