@@ -16,7 +16,7 @@ Envelope<Real>::Envelope(PatchSet<Real>& patches, double scale, SurfaceCounters&
       smallest_stretch_(Precision<Real>::smallest_stretch * scale),
       noise_(Precision<Real>::noise * scale),
       rim_width_(2 * Precision<double>::tolerance * scale),
-      least_up_(square_root(2 * patches.radius() * tolerance_)),
+      least_up_(square_root(2 * patches.radius() * Precision<DoubleDouble>::tolerance * scale)),
       thickness_(0x1p-34 * scale),
       far_(patches.radius() >= scale),
       counters_(counters),
