@@ -86,6 +86,8 @@ class Cells {
   bool labels_differ() const;
   bool settle_star(const Box& box, bool smallest);
   std::optional<Point> star_point(const Box& box) const;
+  std::optional<Point> common_point(const Box& box) const;
+  bool hides_label(Point p) const;
   bool is_steep() const;
   Point least_gap(const Box& box) const;
   std::optional<Point> corner_beside(Point p) const;

@@ -159,8 +159,41 @@ bool Cells<Real>::hides_foot_of_seam(Point corner) const {
   return false;
 }
 
+/// True if p lies inside of one patch that is higher than another one of the labels, or than nothing where that is a label: then
+/// the other one ends before it gets there, which no turn tells.
+template <class Real>
+bool Cells<Real>::hides_label(Point p) const {
+  const PatchSet<Real>& patches = envelope_.patches();
+  const auto holds = [&](Index patch) {
+    const std::span<const Bound> sides = patches.bounds(patch);
+    return std::all_of(sides.begin(), sides.end(), [&](const Bound& b) {
+      const Real slack = 4 * envelope_.tolerance() * (1 + size(envelope_.bound_gradient(b, p)));
+      return b.sign() * b.value(p, patches.square_radius()) < -slack;
+    });
+  };
+  for (const Turn& t : turns_) {
+    if (t.after == none || !holds(t.after)) continue;
+    const Real height = patches.extended_height(t.after, p);
+    const Gradient g = patches.gradient(t.after, p);
+    for (const Turn& other : turns_) {
+      if (other.after == none) return true;
+      const Gradient h = patches.gradient(other.after, p);
+      const Real slack = 64 * envelope_.tolerance() * (1 + norm(g.x - h.x, g.y - h.y));
+      if (envelope_.border_height(other.after, p) < height - slack) return true;
+    }
+  }
+  return false;
+}
+
+/// Where the patches around the cell meet in one vertex.
 template <class Real>
 std::optional<PointOf<Real>> Cells<Real>::star_point(const Box& box) const {
+  const std::optional<Point> p = common_point(box);
+  return p && hides_label(*p) ? std::nullopt : p;
+}
+
+template <class Real>
+std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
   const PatchSet<Real>& patches = envelope_.patches();
   const Real square = patches.square_radius(), radius = patches.radius();
   using Condition = ConditionOf<Real>;
