@@ -140,11 +140,14 @@ class Search {
       // Between the two thresholds either is right, so that rounding cannot keep an interval open.
       if (high + slack < -tolerance_.touch / 4) return hide(a.t, o.condition);
       if (low - slack >= -tolerance_.touch) {
-        if (!linear && low <= tolerance_.touch && high > tolerance_.touch) note_low(o.condition, a.t, b.t);
+        if (!linear && low <= tolerance_.touch) note_low(o.condition, a.t, b.t);
         continue;
       }
       // A condition that holds with equality all along: something else touches the ball too.
-      if (low >= -tolerance_.touch && high <= tolerance_.touch && is_tie(o.condition, a, b)) continue;
+      if (low >= -tolerance_.touch && high <= tolerance_.touch && is_tie(o.condition, a, b)) {
+        if (!linear) note_low(o.condition, a.t, b.t);
+        continue;
+      }
       const Real rise = middle - o.begin, more = o.end - middle;
       const bool monotone = rise * more > 0 && std::fabs(rise) > 4 * slack && std::fabs(more) > 4 * slack;
       // Down to zero and not below: where exactly it gets there could not be told, were it tangent.
