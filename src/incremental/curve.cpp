@@ -13,8 +13,8 @@ namespace {
 /// Directions that differ by less are parallel or coplanar.
 constexpr Real parallel = 1e-13L;
 
-/// What rises above a plane by less only touches it: where exactly they would cross, rounding decides, and it is far
-/// off.
+/// What rises above a plane or overlaps another ball or cylinder by less only touches it: where exactly they would cross,
+/// rounding decides, and it is far off.
 Real flush(const Parts& parts) { return 0x1p-54L * parts.scale(); }
 
 /// The half of the unit circle with positive sine from turn -1, where the cosine is 1, to turn 1: rational, since
@@ -198,8 +198,9 @@ void face_with_vertex(const Parts& parts, Index face, Index vertex, std::vector<
 
 void vertex_with_vertex(const Parts& parts, Index first, Index second, std::vector<Curve>& curves) {
   const Vector v = parts.vertex_of(first).at, w = parts.vertex_of(second).at, between = w - v;
-  const Real square = parts.radius() * parts.radius() - dot(between, between) / 4;
-  if (square > 0)
+  const Real apart = length(between) / 2;
+  const Real square = (parts.radius() - apart) * (parts.radius() + apart);
+  if (parts.radius() - apart > flush(parts))
     curves.push_back(circle(Role::meeting, first, second, Real(0.5) * (v + w), unit(between), std::sqrt(square)));
 }
 
@@ -292,6 +293,7 @@ void edge_with_edge(const Parts& parts, Index first, Index second, std::vector<C
     const Vector off = between - dot(between, e.direction) * e.direction;
     const Real square = dot(off, off);
     if (square <= parallel * parallel * dot(between, between)) return;
+    if (parts.radius() - std::sqrt(square) / 2 <= flush(parts)) return;
     return add_lines(parts, first, second, off, square / 2, curves);
   }
   const Index shared = e.a == f.a || e.a == f.b ? e.a : e.b == f.a || e.b == f.b ? e.b : none;
