@@ -163,13 +163,17 @@ void FaceBuilder::gather(Cell& cell, std::span<const Hint> hints, Vector<double>
   if (reach_.is_empty()) return;
   const auto window = [&]() -> const SiteBoxes::SearchWindow& { return reach_.window(); };
   const auto meets = [&](const SiteBoxes::Box& box) { return reach_.meets(box); };
-  // A face only becomes smaller, so where it has many neighbours it is enough to judge it now and then.
-  std::size_t changes = 0;
+  // A face only becomes smaller, so where it has many neighbours it is enough to judge it now and then: by what was
+  // looked at since it changed, not by changes, or a site that closes the face would go unnoticed if it is the last.
+  bool changed = false;
+  std::size_t looked_at = 0;
   const auto visit = [&](Index site) {
     constexpr std::size_t share = 16;
-    if (!take(cell, site, all_parts) || share * ++changes < labels_.size()) return false;
+    changed = take(cell, site, all_parts) || changed;
+    if (!changed || share * ++looked_at < labels_.size()) return false;
     judge(cell, hints, base);
-    changes = 0;
+    changed = false;
+    looked_at = 0;
     return true;
   };
   // A face that reaches far would otherwise be cut by all that lies near before it is cut by what faces it.
