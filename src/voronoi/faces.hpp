@@ -46,7 +46,7 @@ class FaceBuilder {
         twofold_vertex_(sites),
         precise_side_(sites),
         precise_vertex_(sites),
-        reach_(0x1p-45 * sites.instance().extent()) {}
+        reach_(sites.instance().extent()) {}
 
   /// Appends the face of an element in double precision. Returns false if it is certainly wrong: take build_among.
   /// Sides should come in order.

@@ -21,7 +21,7 @@ void Reach::widen(Vector<double> c, double half) {
 }
 
 void Reach::add_disk(Vector<double> centre, double radius) {
-  const double r = radius * wider + slack_;
+  const double r = radius + (wider - 1) * std::min(radius, most_) + slack_;
   disks_.push_back({centre, r * r});
   widen(centre, r);
 }

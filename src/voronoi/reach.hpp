@@ -17,12 +17,11 @@ struct KnownEmpty {
 
 /// Which boxes may hold a site that cuts a face as found so far: those that meet one of the empty disks about the
 /// face's border. Along a bisector with a point, all disks lie in the two at its ends; along one with a line also in
-/// the strip between the line's places that these two touch. Told a little too often (by 1e-9 of the disk and `slack`),
-/// so that ties are seen. Coordinates are relative to the place given as base.
+/// the strip between the line's places that these two touch. Told a little too often (by 1e-9 of the disk or, if that is
+/// less, of the extent), so that ties are seen. Coordinates are relative to the place given as base.
 class Reach {
  public:
-  /// `slack`: by how much boxes are widened, so that what only the move of vertices brings near is seen.
-  explicit Reach(double slack) : slack_(slack) {}
+  explicit Reach(double extent) : slack_(0x1p-45 * extent), most_(extent) {}
   /// `frame`: the same cell in double precision. Disks known to be empty are left out.
   template <class Real>
   void update(const SideCell<Real>& cell, const SideCell<double>& frame, Vector<double> base, const KnownEmpty& known);
@@ -61,7 +60,8 @@ class Reach {
   void widen(Vector<double> centre, double half);
   void close();
 
-  double slack_;
+  double slack_;  // by which boxes are widened, so that what only the move of vertices brings near is seen
+  double most_;   // no site lies farther from a place on a disk that touches one
   bool open_ = false;
   Vector<double> base_{};
   std::vector<Disk> disks_;
