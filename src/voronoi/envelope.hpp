@@ -51,10 +51,38 @@ class Envelope {
   };
 
   void start(Real low, Real high, const Curve& horizon) {
-    arcs_.clear();
+    arcs_.clear(), done_.clear(), waiting_.clear(), waiting_begin_.clear();
     arcs_.push_back({low, high, horizon});
   }
+  /// Those of the piece in work: all, unless split() was called.
   const std::vector<Arc>& arcs() const { return arcs_; }
+
+  /// A border of many arcs is worked at in pieces, or each new one would move all others along. The second half of the
+  /// arcs waits from now on.
+  void split() {
+    const auto half = arcs_.begin() + std::ptrdiff_t(arcs_.size() / 2);
+    waiting_begin_.push_back(waiting_.size());
+    waiting_.insert(waiting_.end(), half, arcs_.end());
+    arcs_.erase(half, arcs_.end());
+  }
+  /// The piece in work is done; the next one that waits is taken up. False if there is none: all arcs are together again.
+  bool next_piece() {
+    auto first = arcs_.begin();
+    if (first_joins_before()) done_.back().end = first->end, ++first;
+    done_.insert(done_.end(), first, arcs_.end());
+    arcs_.clear();
+    if (waiting_begin_.empty()) {
+      arcs_.swap(done_);
+      return false;
+    }
+    arcs_.assign(waiting_.begin() + std::ptrdiff_t(waiting_begin_.back()), waiting_.end());
+    waiting_.erase(waiting_.begin() + std::ptrdiff_t(waiting_begin_.back()), waiting_.end());
+    waiting_begin_.pop_back();
+    return true;
+  }
+  /// The arcs beside the piece in work; null at the border's ends.
+  const Arc* arc_before() const { return done_.empty() ? nullptr : &done_.back(); }
+  const Arc* arc_after() const { return waiting_begin_.empty() ? nullptr : &waiting_[waiting_begin_.back()]; }
 
   /// Takes the minimum with a curve that is defined between low and high. Returns true if anything changed.
   bool insert(const Curve& curve, Real low, Real high) {
@@ -75,6 +103,9 @@ class Envelope {
   }
 
  private:
+  bool first_joins_before() const {
+    return !done_.empty() && done_.back().curve.label == arcs_.front().curve.label;
+  }
   /// Puts next_ in the place of the arcs from `from` to before `to`: a face may have thousands.
   void replace(std::size_t from, std::size_t to) {
     const std::size_t common = std::min(to - from, next_.size());
@@ -151,6 +182,8 @@ class Envelope {
   std::size_t first_ = 0;
   std::vector<Win> wins_;
   std::vector<Arc> arcs_, next_;
+  std::vector<Arc> done_, waiting_;  // pieces before and after the one in work, the nearest last
+  std::vector<std::size_t> waiting_begin_;
 };
 
 }  // namespace krepl::voronoi

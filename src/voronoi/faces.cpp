@@ -38,6 +38,13 @@ double joint_height(const Arcs& arcs, std::size_t i, std::size_t k, Real x) {
   return double(arcs[by_other ? k : i].curve.height(x));
 }
 
+/// What a face tells: these among others, where all are few.
+std::span<const Hint> hints_about(std::span<const Hint> hints, Index face) {
+  if (hints.size() <= few_hints) return hints;
+  const auto found = std::ranges::equal_range(hints, face, {}, &Hint::face);
+  return {found.begin(), found.end()};
+}
+
 }  // namespace
 
 /// What was taken of a site so far. Most faces look at few sites; the side of a long segment may at thousands.
@@ -68,6 +75,11 @@ bool FaceBuilder::take(Cell& cell, Index site, SiteParts parts) {
   return parts != 0 && cell.add_site(site, parts);
 }
 
+template <class Cell>
+bool FaceBuilder::take(Cell& cell, Index label) {
+  return label < site_itself && take(cell, sites_.site_of(label), sites_.part_of(label));
+}
+
 /// A link that a finished face has as well, between the same neighbours, lies along empty disks.
 void FaceBuilder::find_known(std::span<const Hint> hints, Index first, Index last) {
   const std::size_t count = labels_.size();
@@ -76,7 +88,7 @@ void FaceBuilder::find_known(std::span<const Hint> hints, Index first, Index las
     const Index label = labels_[i];
     for (end = i + 1; end < count && labels_[end] == label;) ++end;  // one link in two charts
     const Index before = i > 0 ? labels_[i - 1] : first, after = end < count ? labels_[end] : last;
-    for (const Hint& h : hints) {
+    for (const Hint& h : hints_about(hints, label)) {
       if (h.face != label) continue;
       const bool starts = h.before == before, stops = h.after == after;
       if (starts) known_.joints[i] = 1;
@@ -93,8 +105,10 @@ void FaceBuilder::judge(const Cell& cell, std::span<const Hint> hints, Vector<do
   labels_.clear();
   if constexpr (std::is_same_v<Cell, SideCell<double>>) {
     for (const auto& arc : cell.arcs()) labels_.push_back(arc.curve.label);
-    const Index first = cell.corner(0), last = cell.corner(1);
-    find_known(hints, first == labels_.front() ? site_itself : first, last == labels_.back() ? site_itself : last);
+    const auto *before = cell.envelope().arc_before(), *after = cell.envelope().arc_after();
+    const auto at_corner = [&](Index corner, Index label) { return corner == label ? site_itself : corner; };
+    find_known(hints, before != nullptr ? before->curve.label : at_corner(cell.corner(0), labels_.front()),
+               after != nullptr ? after->curve.label : at_corner(cell.corner(1), labels_.back()));
   } else {
     for (int i = 0; i < cell.chart_count(); ++i) {
       for (const auto& arc : cell.chart(i).envelope.arcs()) labels_.push_back(arc.curve.label);
@@ -136,33 +150,43 @@ bool FaceBuilder::find_seeds_beside_the_open() {
 }
 
 template <class Cell>
-void FaceBuilder::gather(Cell& cell, std::span<const Hint> hints, Vector<double> base, Vector<double> from) {
+void FaceBuilder::gather(Cell& cell, std::span<const Hint> hints, Vector<double> base) {
   taken_.clear();
-  const auto take_label = [&](Index label) {
-    return label < site_itself && take(cell, sites_.site_of(label), sites_.part_of(label));
-  };
-  for (const Hint& h : hints) take_label(h.face), take_label(h.before), take_label(h.after);
-  if constexpr (std::is_same_v<Cell, SideCell<double>>) take_label(cell.corner(0)), take_label(cell.corner(1));
+  for (const Hint& h : hints) take(cell, h.face), take(cell, h.before), take(cell, h.after);
+  if constexpr (std::is_same_v<Cell, SideCell<double>>) take(cell, cell.corner(0)), take(cell, cell.corner(1));
   judge(cell, hints, base);
   if (reach_.is_empty()) return;
   ++counters.searched;
   bool narrower = false;
   for (const Index label : seeds_) {
-    if (reach_.meets(site_box(sites_.site_of(label)))) narrower = take_label(label) || narrower;
+    if (reach_.meets(site_box(sites_.site_of(label)))) narrower = take(cell, label) || narrower;
   }
   if constexpr (std::is_same_v<Cell, SideCell<double>>) {
     constexpr int most_steps = 8;
     for (int i = 0; i < most_steps && find_seeds_beside_the_open(); ++i) {
       bool closer = false;
-      for (const Index label : seeds_) closer = (label != cell.element() && take_label(label)) || closer;
+      for (const Index label : seeds_) closer = (label != cell.element() && take(cell, label)) || closer;
       if (!closer) break;
       narrower = true;
     }
   }
   if (narrower) judge(cell, hints, base);
-  if (reach_.is_empty()) return;
+  bool whole = gather_by_search(cell, hints, base);
+  if constexpr (std::is_same_v<Cell, SideCell<double>>) {
+    while (begin_next_piece(!whole, hints, base)) whole = gather_by_search(cell, hints, base);
+  }
+}
+
+/// Takes all that cuts the face, or the piece of it in work. Returns false if it stops because these are many.
+template <class Cell>
+bool FaceBuilder::gather_by_search(Cell& cell, std::span<const Hint> hints, Vector<double> base) {
+  if (reach_.is_empty()) return true;
+  constexpr std::size_t many = 64;
+  const auto has_many = [&] { return std::is_same_v<Cell, SideCell<double>> && labels_.size() > many; };
+  if (has_many()) return false;
+  bool stops = false;
   const auto window = [&]() -> const SiteBoxes::SearchWindow& { return reach_.window(); };
-  const auto meets = [&](const SiteBoxes::Box& box) { return reach_.meets(box); };
+  const auto meets = [&](const SiteBoxes::Box& box) { return !stops && reach_.meets(box); };
   // A face only becomes smaller, so where it has many neighbours it is enough to judge it now and then: by what was
   // looked at since it changed, not by changes, or a site that closes the face would go unnoticed if it is the last.
   bool changed = false;
@@ -174,8 +198,10 @@ void FaceBuilder::gather(Cell& cell, std::span<const Hint> hints, Vector<double>
     judge(cell, hints, base);
     changed = false;
     looked_at = 0;
+    stops = has_many();
     return true;
   };
+  const Vector<double> from = base + cell.middle();
   // A face that reaches far would otherwise be cut by all that lies near before it is cut by what faces it.
   const auto& half = reach_.window().half;
   if (reach_.is_open() || std::max(half.x, half.y) > 8 * cell.size()) {
@@ -183,6 +209,28 @@ void FaceBuilder::gather(Cell& cell, std::span<const Hint> hints, Vector<double>
   } else {
     boxes_.search_near(from, memory_, window, meets, visit);
   }
+  return !stops;
+}
+
+/// Of a side with many neighbours: goes on with half of the piece in work, or, when that is done, with the one that waits
+/// next. Returns false if none does: the face is whole.
+bool FaceBuilder::begin_next_piece(bool split, std::span<const Hint> hints, Vector<double> base) {
+  auto& envelope = side_.envelope();
+  const bool is_whole = !split && envelope.arc_before() == nullptr && envelope.arc_after() == nullptr;
+  if (is_whole) return false;
+  bool goes_on = true;
+  if (split) {
+    envelope.split();
+  } else {
+    goes_on = envelope.next_piece();
+    taken_.clear();
+    for (const auto& arc : side_.arcs()) {
+      const Index label = arc.curve.label;
+      if (label != none) taken(sites_.site_of(label)).parts |= sites_.part_of(label);
+    }
+  }
+  judge(side_, hints, base);
+  return goes_on;
 }
 
 SiteBoxes::Box FaceBuilder::site_box(Index site) const {
@@ -212,8 +260,8 @@ bool FaceBuilder::find_candidates(Index element, std::span<const Hint> hints) {
     const Recent& r = recent_[dot(n, recent_[0].normal) > dot(n, recent_[1].normal) ? 0 : 1];
     seeds_.insert(seeds_.end(), r.labels.begin(), r.labels.end());
     const auto e = in.ends(element);
-    const Point p = in.vertices()[e.from], q = in.vertices()[e.to];
-    gather(side_, hints, {p.x, p.y}, {(p.x + q.x) / 2, (p.y + q.y) / 2});
+    const Point p = in.vertices()[e.from];
+    gather(side_, hints, {p.x, p.y});
     remember(element);
     return true;
   }
@@ -224,7 +272,7 @@ bool FaceBuilder::find_candidates(Index element, std::span<const Hint> hints) {
     judge(vertex_, hints, {p.x, p.y});
     return false;
   }
-  gather(vertex_, hints, {p.x, p.y}, {p.x, p.y});
+  gather(vertex_, hints, {p.x, p.y});
   return true;
 }
 

@@ -24,6 +24,8 @@ inline constexpr Index site_itself = none - 1;
 struct Hint {
   Index face, before, after;
 };
+/// More hints than this about one face are in the order of the faces that tell them.
+inline constexpr std::size_t few_hints = 16;
 
 /// Counts for --verbose.
 struct FaceCounters {
@@ -61,7 +63,10 @@ class FaceBuilder {
 
  private:
   template <class Cell>
-  void gather(Cell& cell, std::span<const Hint> hints, Vector<double> base, Vector<double> from);
+  void gather(Cell& cell, std::span<const Hint> hints, Vector<double> base);
+  template <class Cell>
+  bool gather_by_search(Cell& cell, std::span<const Hint> hints, Vector<double> base);
+  bool begin_next_piece(bool split, std::span<const Hint> hints, Vector<double> base);
   struct Taken {
     Index site;
     SiteParts parts;
@@ -69,6 +74,8 @@ class FaceBuilder {
   Taken& taken(Index site);
   template <class Cell>
   bool take(Cell& cell, Index site, SiteParts parts);
+  template <class Cell>
+  bool take(Cell& cell, Index label);
   template <class Cell>
   void judge(const Cell& cell, std::span<const Hint> hints, Vector<double> base);
   void find_known(std::span<const Hint> hints, Index before, Index after);

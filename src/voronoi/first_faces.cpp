@@ -1,5 +1,6 @@
 #include "voronoi/first_faces.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -24,6 +25,7 @@ class Hints {
   std::span<const Hint> of(Index element) {
     told_.clear();
     for (Index i = heads_[element]; i != none; i = entries_[i].next) told_.push_back(entries_[i].hint);
+    if (told_.size() > few_hints) std::ranges::stable_sort(told_, {}, &Hint::face);
     return told_;
   }
 

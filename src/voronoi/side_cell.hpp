@@ -140,10 +140,14 @@ class SideCell {
 
   Index element() const { return element_; }
   Real length() const { return length_; }
-  /// What counts as near, in a search.
-  Real size() const { return length_; }
+  /// What counts as near, in a search: the stretch of the piece in work.
+  Real size() const { return arcs().back().end - arcs().front().begin; }
+  /// The middle of that stretch, in the plane relative to the vertex the side starts from.
+  Vector<Real> middle() const { return plane({(arcs().front().begin + arcs().back().end) / 2, Real(0)}); }
   bool is_own(Index site) const { return site == element_ >> 1; }
   const std::vector<typename Envelope<Real, Curve>::Arc>& arcs() const { return envelope_.arcs(); }
+  const Envelope<Real, Curve>& envelope() const { return envelope_; }
+  Envelope<Real, Curve>& envelope() { return envelope_; }
   /// True if double precision cannot tell on which side of the base a site lies that matters; neighbours might not
   /// notice.
   bool is_uncertain() const { return uncertain_; }

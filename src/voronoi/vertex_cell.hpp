@@ -116,6 +116,8 @@ class VertexCell {
   bool is_uncertain() const { return uncertain_; }
   /// What counts as near, in a search: the length of a segment beside the vertex.
   Real size() const { return beside_[0] == none ? Real(0) : length(locate(beside_[0])); }
+  /// Where a search begins, relative to the vertex.
+  Vector<Real> middle() const { return {Real(0), Real(0)}; }
   bool is_isolated() const { return !sites_.is_side(sector_.before); }
   Instance::Sector sector() const { return sector_; }
   int chart_count() const { return charts_; }

@@ -9,6 +9,7 @@
 #include "krepl/voronoi.hpp"
 #include "support/environment.hpp"
 #include "support/zone_case.hpp"
+#include "support/zone_comparison.hpp"
 
 namespace krepl::test {
 namespace {
@@ -180,6 +181,51 @@ TEST(VoronoiDiagram, OutlinesOfPixelsNeedNoPrecision) {
   const auto diagram = VoronoiDiagram::build(shared(c));
   ASSERT_TRUE(diagram.ok());
   EXPECT_EQ(diagram->counters().faces_in_pairs, 0u);
+}
+
+/// A long segment beside a line of `count` short ones, nearly all of which its side has for neighbours.
+ZoneCase long_side_beside_a_fine_line(int count) {
+  std::mt19937_64 random(20060403);
+  std::uniform_real_distribution<double> unit(-0.02, 0.02);
+  std::vector<Point> fine;
+  for (int i = 0; i <= count; ++i) fine.push_back({double(i), 20 + unit(random)});
+  return {{line({{0, 0}, {double(count), 0}}), line(fine)}};
+}
+
+TEST(VoronoiDiagram, ALongSideBesideAFineLine) { expect_sound(long_side_beside_a_fine_line(800)); }
+
+/// Work grows with the size, whatever a side's number of neighbours.
+TEST(VoronoiDiagram, ALongSideBesideAFineLineIsNotQuadratic) {
+  const auto network = shared(long_side_beside_a_fine_line(10000));
+  const auto diagram = VoronoiDiagram::build(network);
+  ASSERT_TRUE(diagram.ok()) << diagram.error().text();
+  EXPECT_EQ(diagram->validate().value_or("sound"), "sound");
+  std::size_t neighbours = 0;
+  for (const auto& e : diagram->edges()) {
+    for (const auto& site : {e.left, e.right}) neighbours += !site.is_vertex && site.index == 0 ? 1 : 0;
+  }
+  EXPECT_GT(neighbours, 10000u);
+  const auto& counters = diagram->counters();
+  EXPECT_LT(counters.candidates, 7 * counters.faces);
+  const auto zone = diagram->zone({9.99}), by_intervals = compute_zone(network, {9.99});
+  ASSERT_TRUE(zone.ok() && by_intervals.ok());
+  EXPECT_EQ(difference(*by_intervals, *zone).value_or("same"), "same");
+}
+
+/// Ends of many short lines look far, and often the last site that cuts their face closes it.
+TEST(VoronoiDiagram, ScatteredLinesNeedFewCandidates) {
+  std::mt19937_64 random(20060404);
+  std::uniform_real_distribution<double> unit(0, 1);
+  ZoneCase c;
+  for (int i = 0; i < 4000; ++i) {
+    Point p{1000 * unit(random), 1000 * unit(random)};
+    std::vector<Point> points{p};
+    for (int k = 0; k < 5; ++k) points.push_back(p = {p.x + unit(random), p.y + unit(random)});
+    c.parts.push_back(line(points));
+  }
+  const auto diagram = VoronoiDiagram::build(shared(c));
+  ASSERT_TRUE(diagram.ok()) << diagram.error().text();
+  EXPECT_LT(double(diagram->counters().candidates), 5.8 * double(diagram->counters().faces));
 }
 
 /// Two segments that overlap but for the move of vertices, and a third at twice the radius: all along the middle the
