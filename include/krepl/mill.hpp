@@ -65,7 +65,8 @@ struct ParallelOptions {
   double step_over = 0;
   /// For balls: greatest height of what is left above all that the ball can reach (the part's closing by it, within the limits). It is
   /// proven, as by ScallopOptions; where that fails, as on slopes across the passes, in hollows and along walls, passes are added
-  /// between others, in up to ten rounds. What then remains is counted in the report. Along a wall the tool's shank counts.
+  /// between others, then the tool goes straight down to single places. What then remains is counted in the report. Along a wall the tool's
+  /// shank counts. What a ball four units larger does not enter is no gap.
   double scallop = 0;
   double angle =
       0;  ///< of the passes, degrees counter-clockwise from +x; turned a little (report) to meet places of few decimals
@@ -94,10 +95,10 @@ struct MillReport {
   std::size_t lifted_moves = 0;     ///< moves not proven free: of waterlines, pencil, scallop and rest passes taken over what is in
                                     ///< their way, of roughing left out
   double step_over = 0;             ///< used
-  std::size_t extra_passes = 0;     ///< parts of passes between others, for the sake of the scallop
+  std::size_t extra_passes = 0;     ///< parts of passes between others, and single places, for the sake of the scallop
   double angle = 0;                 ///< used, degrees
-  std::size_t open_places = 0;      ///< with a scallop: places where more is left, and cubes a hundredth of a step-over large in which
-                                    ///< it is not proven to be kept
+  std::size_t open_places = 0;      ///< with a scallop: places where more is left, and cubes an eighth of it large in which it is not
+                                    ///< proven to be kept; no part is known that has any
 };
 
 struct MilledPath {

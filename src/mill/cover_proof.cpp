@@ -15,7 +15,8 @@ using namespace vectors;
 namespace {
 
 constexpr double root3 = 1.7320508075688772;
-constexpr int most_levels = 8;      // of halving a tile
+constexpr int most_levels = 8;      // of halving a tile; more if asked for
+constexpr int most_asked = 14;
 constexpr double rounding = 1e-12;  // of squared distances, relative
 constexpr double smallest = 0.01;   // half a cube's diagonal or so, of half the distance of passes on a plane
 constexpr double widest_cone =
@@ -329,6 +330,8 @@ CoverProof::CoverProof(const DropCutter& cutter, const CoverOptions& options)
   tiny_ = 1e-6 * reach_;
   side_ = std::min(4 * reach_, contact / 2);
   levels_ = std::clamp(int(std::ceil(std::log2(side_ / (2 * smallest * reach_)))), 1, most_levels);
+  if (o_.smallest > 0)
+    levels_ = std::clamp(int(std::ceil(std::log2(side_ / o_.smallest))), levels_, most_asked);
   for (int k = 0; k <= levels_; ++k) {
     const double e = std::ldexp(side_ * root3 / 2, -k);
     for (const bool more : {false, true})
@@ -359,6 +362,7 @@ void CoverProof::add(const PathPiece& piece) {
 void CoverProof::add(const Cut& cut) {
   const Point3 origin = cutter_.terrain().origin();
   Point3 at = cut.start;
+  if (cut.moves.empty()) add({at - origin, at - origin});
   std::vector<Point3> points;
   for (const Move& m : cut.moves) {
     points.clear();

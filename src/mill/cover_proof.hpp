@@ -23,6 +23,7 @@ struct CoverOptions {
   double height = 0;     ///< greatest height of what may be left above that, less than the radius
   double off = 0;        ///< how far the path may be from the pieces (chords of arcs)
   bool shank = false;    ///< what is beside and above the ball counts as taken off by its shank, as in passes along a wall's foot
+  double smallest = 0;   ///< greatest side of the smallest cubes; 0: a fiftieth of half the distance of passes on a plane
 };
 
 /// Proves that a path leaves nothing higher than wanted above what its tool can reach, or tells where it may.
@@ -44,7 +45,7 @@ class CoverProof {
   CoverProof(const DropCutter& cutter, const CoverOptions& options);
 
   void add(const PathPiece& piece);
-  /// The pieces of a cut, chords of its arcs within options.off; coordinates are absolute.
+  /// The pieces of a cut, chords of its arcs within options.off, or its one place; coordinates are absolute.
   void add(const Cut& cut);
 
   /// Side of the smallest cubes.

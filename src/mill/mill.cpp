@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "kernel/parallel.hpp"
+#include "kernel/vectors.hpp"
 #include "krepl/drop_cutter.hpp"
 #include "mill/cover_proof.hpp"
 #include "mill/curve_fit.hpp"
@@ -18,6 +19,7 @@
 #include "mill/pass_layout.hpp"
 #include "mill/pass_limits.hpp"
 #include "mill/plan.hpp"
+#include "mill/plunges.hpp"
 
 namespace krepl {
 namespace {
@@ -163,8 +165,8 @@ class ParallelPasses {
     const double room = 4 * o_.accuracy.unit;
     const Result<DropCutter> contact = drop_.with_radius(o_.tool.radius + o_.tool.allowance + room);
     if (!contact) return contact.error();
-    mill::CoverProof proof(*contact,
-                           {o_.tool.radius, o_.tool.allowance + room, o_.scallop - room, o_.scallop / 64, true});
+    const mill::CoverOptions cover{o_.tool.radius, o_.tool.allowance + room, o_.scallop - room, o_.scallop / 64, true};
+    mill::CoverProof proof(*contact, cover);
     gaps_.emplace(layout_, plan_.step_over / 2, 2 * proof.smallest_side());
     const mill::Interest interest(*contact, limits_, plan_.step_over / 4);
     // Over its lowest places the ball rests a bit lower than the path.
@@ -187,9 +189,28 @@ class ParallelPasses {
       if (!make_cuts(proven, quiet_)) return mill::cancelled();
       tiles = open_tiles;
     }
+    if (!open.empty() && !add_plunges({drop_, *contact, cover, plan_, o_.accuracy.unit}, open_tiles, is_of_interest, open))
+      return mill::cancelled();
     report_.open_places = open.size();
     report_.extra_passes = passes_.size() - layout_.passes.size();
     return std::monostate{};
+  }
+
+  /// What is of interest is farther from the boundary than these are from it.
+  bool add_plunges(const mill::Plunges& plunges, const std::vector<std::size_t>& tiles,
+                   const std::function<bool(Point3, double)>& is_of_interest, std::vector<Point3>& open) {
+    std::vector<Cut> cuts;
+    const auto add_cuts = [this](mill::CoverProof& proof) {
+      for (const Placed& placed : passes_)
+        for (const Cut& cut : placed.result.cuts) proof.add(cut);
+    };
+    if (!plunges.serve(add_cuts, tiles, is_of_interest, quiet_, cuts, open)) return false;
+    for (Cut& cut : cuts) {
+      const mill::PassGaps::Extra at = gaps_->at(vectors::operator-(cut.start, drop_.terrain().origin()));
+      passes_.push_back({2 * at.gap, at.pass, &layout_, {}});
+      passes_.back().result.cuts.push_back(std::move(cut));
+    }
+    return true;
   }
 
   /// Pass by pass, and the pieces of each gap on the way back, whatever line they are on.

@@ -124,4 +124,11 @@ std::vector<PassGaps::Extra> PassGaps::serve_across(const std::vector<Point3>& p
   return found;
 }
 
+PassGaps::Extra PassGaps::at(Point3 p) const {
+  const Place place = place_of(p);
+  const auto along = std::int64_t(std::llround(place.along)), across = std::int64_t(std::llround(place.across));
+  const PassLayout::Pass& base = layout_.passes.front();
+  return {gap_of(place.across), {base.i0 - across * layout_.q, base.j0 + across * layout_.p, along, along}, false};
+}
+
 }  // namespace krepl::mill

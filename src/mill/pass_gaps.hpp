@@ -26,6 +26,9 @@ class PassGaps {
   /// Short passes across the others, over the places: they go down to the bottom of valleys that run along the others.
   std::vector<Extra> serve_across(const std::vector<Point3>& places) const;
 
+  /// A pass of no length at a place.
+  Extra at(Point3 place) const;
+
   /// Of passes at a right angle to the layout's; it has none.
   const PassLayout& across() const { return turned_; }
 

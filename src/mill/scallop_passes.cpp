@@ -15,6 +15,7 @@
 #include "mill/free_moves.hpp"
 #include "mill/grid_lines.hpp"
 #include "mill/on_surface.hpp"
+#include "mill/plunges.hpp"
 #include "mill/rest_area.hpp"
 #include "mill/space_fit.hpp"
 #include "mill/surface_grid.hpp"
@@ -239,7 +240,8 @@ class ScallopPasses {
   Status prove(std::vector<Cut>& cuts) {
     // What a ball enters that is a few units larger: a path keeps some away.
     const double room = 4 * job_.accuracy.unit;
-    CoverProof proof(contact_, {job_.tool.radius, job_.tool.allowance + room, job_.scallop - room, 0, true});
+    const CoverOptions cover{job_.tool.radius, job_.tool.allowance + room, job_.scallop - room, 0, true};
+    CoverProof proof(contact_, cover);
     std::function<bool(Point3, double)> is_of_interest;
     if (!cells_.empty())
       is_of_interest = [this](Point3 p, double far) {
@@ -268,6 +270,18 @@ class ScallopPasses {
         if (!add(lines_at(step / 2, step, near), *usual_, cuts)) return cancelled();
       }
       tiles = open_tiles;
+    }
+    if (!open.empty()) {
+      const Result<DropCutter> cutter = contact_.with_radius(plan_.radius);
+      if (!cutter) return cutter.error();
+      const auto add_cuts = [&cuts](CoverProof& finer) {
+        for (const Cut& cut : cuts) finer.add(cut);
+      };
+      std::vector<Cut> plunges;
+      if (!Plunges(*cutter, contact_, cover, plan_, job_.accuracy.unit)
+               .serve(add_cuts, open_tiles, is_of_interest, quiet_, plunges, open))
+        return cancelled();
+      for (Cut& cut : plunges) cuts.push_back(std::move(cut));
     }
     report_.open_places = open.size();
     report_.extra_passes = cuts.size() - report_.passes;

@@ -73,6 +73,21 @@ TEST_P(RealParts, AreNotCutInto) {
   }
 }
 
+/// Slots of it end between walls that all but touch; no pass gets to their ends.
+TEST(RealPart, KeepsTheScallopAtTheEndsOfGaps) {
+  const auto data = data_directory();
+  if (!data || !std::filesystem::exists(*data / "mesh/featuretype.off")) GTEST_SKIP() << "no real data: set KREPL_DATA";
+  input::TerrainRequest request;
+  request.path = (*data / "mesh/featuretype.off").string();
+  const auto file = input::read_terrain(request);
+  ASSERT_TRUE(file) << file.error().text();
+  ParallelOptions o;
+  o.tool.radius = 0.15, o.scallop = 0.02, o.angle = 45;
+  const auto milled = mill_parallel(file->terrain, o);
+  ASSERT_TRUE(milled) << milled.error().text();
+  EXPECT_EQ(milled->report.open_places, 0u);
+}
+
 TEST_P(RealParts, AreNotCutIntoByWaterlines) {
   const auto data = data_directory();
   if (!data || !std::filesystem::exists(*data / GetParam().file)) GTEST_SKIP() << "no real data: set KREPL_DATA";
