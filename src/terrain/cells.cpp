@@ -481,9 +481,10 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
   std::optional<Point> nearest;
   Real steepest = 1;
   for (const Turn& t : turns_) {
-    if (t.after != none) steepest = std::max(steepest, patches[t.after].q);
+    if (t.after != none && patches[t.after].kind != Terrain::FeatureKind::face)
+      steepest = std::max(steepest, patches[t.after].q);
   }
-  // Sides that part like circles with slopes between them are so close together for that long.
+  // Sides that part like circles with slopes between them are so close together for that long; a face's are straight.
   const Real beside_wall = 4 * steepest * square_root(patches.radius() * envelope_.rim_width());
   Real least = std::max(0x1p-12 * patches.radius(), beside_wall);
   for (std::size_t i = 0; i < turns_.size(); ++i) {

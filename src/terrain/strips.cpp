@@ -109,7 +109,6 @@ Real Cells<Real>::bend(const Turn& turn, Point end, const Box& box) const {
     if (side->type != BoundType::cone || size(envelope_.bound_gradient(*side, turn.at)) < steep) return least;
     return std::min(least, bent([&](Gradient d) { return envelope_.upright_derivative_range(*side, box, d); }));
   }
-  if (const Index first = first_in_plane(turn, box); first != none && !corner_in(first, box)) return 0;
   Real least = bent([&](Gradient d) { return slope_of_difference(turn.before, turn.after, box, d); });
   for (const Index upright : {turn.before, turn.after}) {
     if (!is_upright(upright, turn.at)) continue;
