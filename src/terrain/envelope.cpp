@@ -143,19 +143,24 @@ bool Envelope<Real>::is_beyond_wall(Index patch, Point p) const {
                      [&](const Bound& b) { return b.rim && b.sign() * b.value(p, patches_.square_radius()) > 0; });
 }
 
-/// Of two patches that end in walls at one place and on one side, the one whose wall is further in: true if the other patch is at
-/// least as high there, so that the two have met before. Nothing where the walls stand back to back.
+/// Of two patches of which one ends in a wall at a place, or both in walls on one side, the one further in: true if the other patch
+/// is at least as high there, so that the two have met before. Nothing where walls stand back to back.
 template <class Real>
 std::optional<bool> Envelope<Real>::meet_before_wall(Index a, Index b, Point p) const {
   const Real square = patches_.square_radius();
-  const Bound *walls[2] = {rim_at(a, p), rim_at(b, p)};
-  const Gradient g = bound_gradient(*walls[0], p), h = bound_gradient(*walls[1], p);
-  if (walls[0]->sign() * walls[1]->sign() * (g.x * h.x + g.y * h.y) <= 0) return std::nullopt;
-  for (const auto& [inner, outer, to_inner, own] : {std::tuple{a, walls[1], g, walls[0]}, std::tuple{b, walls[0], h, walls[1]}}) {
-    const Real step = own->value(p, square) / (to_inner.x * to_inner.x + to_inner.y * to_inner.y);
-    const Point foot{p.x - step * to_inner.x, p.y - step * to_inner.y};
-    if (outer->sign() * outer->value(foot, square) > 0) continue;
-    return clamped_height(inner == a ? b : a, foot) >= rim_height(inner, foot);
+  const Bound *of_a = rim_at(a, p), *of_b = rim_at(b, p);
+  if (of_a != nullptr && of_b != nullptr) {
+    const Gradient g = bound_gradient(*of_a, p), h = bound_gradient(*of_b, p);
+    if (of_a->sign() * of_b->sign() * (g.x * h.x + g.y * h.y) <= 0) return std::nullopt;
+  }
+  for (const auto& [inner, wall, outer] : {std::tuple{a, of_a, b}, std::tuple{b, of_b, a}}) {
+    if (wall == nullptr) continue;
+    const Gradient g = bound_gradient(*wall, p);
+    const Real step = wall->value(p, square) / (g.x * g.x + g.y * g.y);
+    const Point foot{p.x - step * g.x, p.y - step * g.y};
+    if (is_beyond_wall(outer, foot)) continue;
+    const Gradient h = patches_.gradient(outer, foot);
+    return clamped_height(outer, foot) >= rim_height(inner, foot) - noise_ * (1 + norm(h.x, h.y));
   }
   return std::nullopt;
 }
@@ -173,12 +178,12 @@ Meeting Envelope<Real>::meeting(Index a, Index b, Point p) const {
     const Real slack = 0x1p-14 * patches_.radius() + 64 * tolerance_ * norm(g.x - h.x, g.y - h.y);
     return absolute(difference) <= slack ? Meeting::valley : Meeting::rim;
   }
+  if (is_fine<Real>) {
+    if (const std::optional<bool> met = meet_before_wall(a, b, p)) return *met ? Meeting::valley : Meeting::rim;
+  }
   // Just before its end a patch falls steeply: where the other one is higher than its rim, it has met that one before.
   if (a_ends != b_ends && (a_ends ? difference < 0 : difference > 0))
     return is_beyond_wall(a_ends ? b : a, p) ? Meeting::rim : Meeting::valley;
-  if (a_ends && b_ends && is_fine<Real>) {
-    if (const std::optional<bool> met = meet_before_wall(a, b, p)) return *met ? Meeting::valley : Meeting::rim;
-  }
   const Gradient g = a_ends ? rim_gradient(a) : patches_.gradient(a, p),
                  h = b_ends ? rim_gradient(b) : patches_.gradient(b, p);
   return absolute(difference) <= 64 * tolerance_ * (1 + norm(g.x - h.x, g.y - h.y)) ? Meeting::valley : Meeting::rim;
