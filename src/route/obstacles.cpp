@@ -118,7 +118,8 @@ bool Obstacles::any_within(Point a, Point b, double clearance) const {
   return limit < 0;
 }
 
-void Obstacles::each_by_distance(Point p, const std::function<bool(double, Point, Point)>& visit) const {
+void Obstacles::each_by_distance(Point p, const std::function<bool(double, Point, Point)>& visit,
+                                 const std::function<bool(double, const Box&)>& is_near) const {
   struct Waiting {
     double distance;
     std::size_t level, index;
@@ -138,7 +139,11 @@ void Obstacles::each_by_distance(Point p, const std::function<bool(double, Point
       continue;
     }
     const auto [first, last] = tree_.children(w.level, w.index);
-    for (std::size_t i = first; i < last; ++i) queue.push({distance(p, tree_.box(w.level - 1, i)), w.level - 1, i});
+    for (std::size_t i = first; i < last; ++i) {
+      const Box& box = tree_.box(w.level - 1, i);
+      const double away = distance(p, box);
+      if (is_near(away, box)) queue.push({away, w.level - 1, i});
+    }
   }
 }
 

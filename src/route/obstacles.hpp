@@ -34,8 +34,9 @@ class Obstacles {
   /// True if some obstacle is nearer to segment ab than `clearance`.
   bool any_within(Point a, Point b, double clearance) const;
   /// Visits segments and points, their ends given, by growing distance of their boxes from p, until visit(distance, a,
-  /// b) returns false.
-  void each_by_distance(Point p, const std::function<bool(double, Point, Point)>& visit) const;
+  /// b) returns false. Only those whose boxes, and those around them, fulfil a condition: is_near(distance, box).
+  void each_by_distance(Point p, const std::function<bool(double, Point, Point)>& visit,
+                        const std::function<bool(double, const Box&)>& is_near) const;
   double nearest_to_arc(const ArcShape& arc, double limit) const;
 
   /// The feature of a polygon that holds p in its inside (even-odd rule of each feature), if any does.

@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace krepl::route {
+namespace {
+
+constexpr double hurry = 1.1;
+
+}  // namespace
 
 TautSearch::TautSearch(const FreeSpace& space, const Obstacles& obstacles, double radius, Slack slack)
     : space_(space),
@@ -10,8 +15,7 @@ TautSearch::TautSearch(const FreeSpace& space, const Obstacles& obstacles, doubl
       radius_(radius),
       slack_(slack),
       angle_slack_(std::clamp(slack.tolerance / radius, 1e-13, 1e-3)),
-      tree_(boxes()),
-      reached_(2 * space.arcs().size()) {
+      tree_(boxes()) {
   counters_.arcs = space.arcs().size();
 }
 
@@ -52,13 +56,14 @@ std::optional<double> TautSearch::along(Index w, Point normal) const {
   return clockwise(w) ? a.span - at : at;
 }
 
-/// Made at the first arrival; where a string may leave ahead of later ones is part of it.
-const Horizon& TautSearch::horizon(Index w) {
-  auto& made = horizons_[w];
+/// Made at the first arrival; where a string may leave ahead of later ones is part of it, and bounds of routes only grow.
+const Horizon& TautSearch::horizon(const Arrival& from) {
+  auto& made = horizons_[from.wheel];
   if (!made) {
-    const bool place = w == none;
-    made = std::make_unique<Horizon>(obstacles_, wheel(w), place ? 0 : arc(w).from, place ? turn : arc(w).span, radius_,
-                                     slack_.tolerance);
+    const bool place = from.wheel == none;
+    const double budget = std::max(0.0, limit_ - from.cost - distance(from.end, to_)) + slack_.tolerance;
+    made = std::make_unique<Horizon>(obstacles_, wheel(from.wheel), place ? 0 : arc(from.wheel).from,
+                                     place ? turn : arc(from.wheel).span, radius_, slack_.tolerance, Reach{to_, budget});
   }
   return *made;
 }
@@ -110,6 +115,7 @@ bool TautSearch::dominated(Index w, double at, double cost) const {
 }
 
 void TautSearch::push(double bound, Index arrival, Index target, int level) {
+  if (bound > limit_) return;
   queue_.push({bound, order_++, arrival, target, std::int8_t(level)});
 }
 
@@ -117,8 +123,10 @@ void TautSearch::push_tangent(Index arrival, Index target) {
   const auto l = link(arrivals_[arrival], target);
   if (!l) return;
   ++counters_.tangents;
-  if (horizon(arrivals_[arrival].wheel).hides(l->leaving, l->tangent.length - slack_.tolerance)) return;
-  push(l->cost + distance(l->tangent.end, to_), arrival, target, -1);
+  const double bound = l->cost + left(distance(l->tangent.end, to_));
+  if (bound > limit_) return;
+  if (horizon(arrivals_[arrival]).hides(l->leaving, l->tangent.length - slack_.tolerance)) return;
+  push(bound, arrival, target, -1);
 }
 
 void TautSearch::arrive(const Arrival& arrival) {
@@ -126,7 +134,7 @@ void TautSearch::arrive(const Arrival& arrival) {
   const Index a = Index(arrivals_.size());
   arrivals_.push_back(arrival);
   push_tangent(a, goal());
-  if (!tree_.empty()) push(arrival.cost + distance(arrival.end, to_), a, 0, int(tree_.top()));
+  if (!tree_.empty()) push(arrival.cost + left(distance(arrival.end, to_)), a, 0, int(tree_.top()));
 }
 
 /// Looks into a node of the tree: its children wait with a bound of the route by way of them.
@@ -137,12 +145,13 @@ void TautSearch::open(const Entry& entry) {
     return;
   }
   const Arrival& from = arrivals_[entry.arrival];
-  const Horizon& seen = horizon(from.wheel);
+  const Horizon& seen = horizon(from);
   const auto [first, last] = tree_.children(std::size_t(entry.level), entry.target);
   for (std::size_t i = first; i < last; ++i) {
     const Box& box = tree_.box(std::size_t(entry.level) - 1, i);
-    if (seen.hides(box)) continue;
-    push(from.cost + distance(from.end, box) + distance(to_, box), entry.arrival, Index(i), entry.level - 1);
+    const double bound = from.cost + distance(from.end, box) + left(distance(to_, box));
+    if (bound > limit_ || seen.hides(box)) continue;
+    push(bound, entry.arrival, Index(i), entry.level - 1);
   }
 }
 
@@ -165,7 +174,27 @@ bool TautSearch::follow(const Entry& entry) {
 
 Result<std::vector<TautStretch>> TautSearch::run(Point from, Point to, const Context& context) {
   from_ = from, to_ = to;
-  arrive({none, 0, 0, none, from, from, 0});
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Result<std::vector<TautStretch>> found = search(hurry, infinity, context);
+  if (!found || found->empty()) return found;
+  // A straight way is the shortest.
+  if (found->size() == 1) return found;
+  // Most are shorter by far than what was found in a hurry. If not, what was looked at in vain is little.
+  const double least = distance(from, to), most = arrivals_.back().cost;
+  for (const double part : {1.0 / 256, 1.0 / 16, 1.0}) {
+    found = search(1, least + part * (most - least) + 4 * slack_.tolerance + 1e-12 * most, context);
+    if (!found || !found->empty()) return found;
+  }
+  return search(1, infinity, context);
+}
+
+/// Best first by cost and `weight` times what is left at least; nothing longer than `limit`.
+Result<std::vector<TautStretch>> TautSearch::search(double weight, double limit, const Context& context) {
+  weight_ = weight, limit_ = limit;
+  queue_ = {}, order_ = 0;
+  arrivals_.clear(), horizons_.clear();
+  reached_.assign(2 * space_.arcs().size(), {});
+  arrive({none, 0, 0, none, from_, from_, 0});
   for (std::uint64_t steps = 0; !queue_.empty(); ++steps) {
     if (steps % 1024 == 0 && context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
     const Entry entry = queue_.top();

@@ -29,6 +29,9 @@ struct TautStretch {
 /// since its start in that sense. Every arrival at a directed arc draws tangents from what lies ahead of it, by opening
 /// the tree over all arcs node by node in the order of a lower bound of the whole route. Tangents wait in the same
 /// queue; only when one comes up is it tested against the obstacles.
+///
+/// First in a hurry, with the way that is left counting for more than it is: that soon finds some string. Then for the
+/// shortest one, and nothing is looked at that cannot be part of a shorter one than that.
 class TautSearch {
  public:
   TautSearch(const FreeSpace& space, const Obstacles& obstacles, double radius, Slack slack);
@@ -36,6 +39,7 @@ class TautSearch {
   /// The stretches from `from` to `to`; empty if there is no way. Errors: cancelled.
   Result<std::vector<TautStretch>> run(Point from, Point to, const Context& context);
 
+  /// Of all that was looked at.
   const RouteCounters& counters() const { return counters_; }
 
  private:
@@ -65,6 +69,7 @@ class TautSearch {
     double leaving;  ///< angle at which it leaves
   };
 
+  Result<std::vector<TautStretch>> search(double weight, double limit, const Context& context);
   Index goal() const { return Index(2 * space_.arcs().size()); }
   const FreeArc& arc(Index wheel) const { return space_.arcs()[wheel / 2]; }
   static bool clockwise(Index wheel) { return wheel % 2 == 1; }
@@ -72,7 +77,8 @@ class TautSearch {
   Wheel wheel(Index w) const;
   std::optional<double> along(Index wheel, Point normal) const;
   std::vector<Box> boxes() const;
-  const Horizon& horizon(Index wheel);
+  const Horizon& horizon(const Arrival& arrival);
+  double left(double away) const { return weight_ * away; }
   std::optional<Link> link(const Arrival& from, Index target) const;
   bool visible(const Arrival& from, Index target, const Tangent& tangent);
   bool dominated(Index wheel, double at, double cost) const;
@@ -97,6 +103,8 @@ class TautSearch {
   };
   std::vector<std::vector<Reached>> reached_;  // per directed arc
   std::priority_queue<Entry> queue_;
+  double weight_ = 1;                                          // of the way that is left
+  double limit_ = std::numeric_limits<double>::infinity();  // of a route's length
   std::unordered_map<std::uint64_t, bool> visible_;
   Index order_ = 0;
   RouteCounters counters_;

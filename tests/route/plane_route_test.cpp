@@ -3,9 +3,11 @@
 // seen.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "krepl/route.hpp"
 #include "support/environment.hpp"
@@ -197,6 +199,46 @@ TEST(PlaneRoute, RandomScenesAgainstTheWholeVisibilityGraph) {
   }
   EXPECT_GT(found, rounds / 4);
   EXPECT_GT(turned, rounds / 12);
+}
+
+/// Scattered points: most of what is seen is far away, and many ways are almost equally long.
+TEST(PlaneRoute, ForestsAgainstTheWholeVisibilityGraph) {
+  std::mt19937_64 random(seed() + 3);
+  std::uniform_real_distribution<double> in(0, 1);
+  for (int i = 0; i < int(24 * effort()); ++i) {
+    const int count = 12 + int(random() % 12);
+    ZoneCase c{{}, 0};
+    for (int k = 0; k < count; ++k) c.parts.push_back(point(in(random), in(random)));
+    // Disks cover from a hundredth to half of the square.
+    const double covered = std::array{0.01, 0.05, 0.2, 0.5}[random() % 4];
+    c.radius = std::sqrt(covered / (count * pi));
+    const Point from{-2 * c.radius, in(random)}, to{1 + 2 * c.radius, in(random)};
+    const auto route = route_of(c, from, to);
+    ASSERT_TRUE(route.ok()) << route.error().text() << c;
+    EXPECT_EQ(fault_in_route(*route, c, from, to, true).value_or("none"), "none") << c;
+    // Scattered at random no gap is so near to the disk's width.
+    const auto brute = brute_shortest(c, from, to, 1e-12);
+    ASSERT_TRUE(brute.has_value()) << c;
+    EXPECT_NEAR(route->length, *brute, 1e-9) << c;
+  }
+}
+
+/// The same length there and back through thousands of points, which no brute force can look at.
+TEST(PlaneRoute, LargeForestsThereAndBack) {
+  std::mt19937_64 random(seed() + 4);
+  std::uniform_real_distribution<double> in(0, 1);
+  for (const auto& [count, covered] : {std::pair{2000, 0.01}, {2000, 0.4}, {20000, 0.03}}) {
+    ZoneCase c{{}, std::sqrt(covered / (count * pi))};
+    for (int k = 0; k < count; ++k) c.parts.push_back(point(in(random), in(random)));
+    const Point from{-2 * c.radius, -2 * c.radius}, to{1 + 2 * c.radius, 1 + 2 * c.radius};
+    const auto there = route_of(c, from, to), back = route_of(c, to, from);
+    ASSERT_TRUE(there.ok() && back.ok());
+    EXPECT_EQ(fault_in_route(*there, c, from, to, true).value_or("none"), "none");
+    EXPECT_NEAR(there->length, back->length, 1e-10);
+    EXPECT_GT(there->pieces.size(), 8u);
+    // What is looked at grows with what may be on the way, not with what can be seen.
+    EXPECT_LT(there->counters.tangents, 15u * unsigned(count)) << covered;
+  }
 }
 
 TEST(PlaneRoute, ThereAndBackAreEquallyLong) {
