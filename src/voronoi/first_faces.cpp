@@ -108,9 +108,11 @@ class FirstFaces {
       spent = builder.counters.candidates;
     };
     const auto stops = [&] { return context.cancelled() || budget_.is_exceeded(); };
+    // Along the lines: a side's neighbours are nearly those of the side before it.
     for (Index s = from; s < to && !stops(); ++s) {
-      const auto site = in_.site(s);
-      if (site.a != site.b) build_face(2 * s), build_face(2 * s + 1);
+      if (in_.site(s).a == in_.site(s).b) continue;
+      for (Index e = 2 * s; e != none && (e >> 1) >= from && (e >> 1) < to && !done_[e]; e = side_after(e))
+        build_face(e), build_face(e ^ 1u);
     }
     // Vertices last: sides tell nearly all about them.
     for (Index s = from; s < to && !stops(); ++s) {
@@ -120,6 +122,12 @@ class FirstFaces {
       }
     }
     part.counters = builder.counters;
+  }
+
+  /// The side that starts where this one ends, on the same side of their line.
+  Index side_after(Index side) const {
+    const Index corner = sites_.corner(side, 1);
+    return corner == none || in_.is_side(corner) ? corner : in_.sector(in_.vertex_of(corner)).after;
   }
 
   /// Tells the faces of the block that are not yet done what the border of face e says about them.

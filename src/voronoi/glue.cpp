@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace krepl::voronoi {
 
@@ -85,23 +86,50 @@ Index Borders::twin(Index face, Index link) const {
   return known;
 }
 
+void Borders::remember_twins() {
+  constexpr Index many = 64;
+  twins_.resize(links.size(), none);
+  for (Index face = 0; face < count.size(); ++face) {
+    if (count[face] <= many) continue;
+    ByLabel& sorted = by_label_[face];
+    if (sorted.first == first[face] && sorted.links.size() == count[face]) continue;
+    sorted.first = first[face];
+    sorted.links.resize(count[face]);
+    std::iota(sorted.links.begin(), sorted.links.end(), first[face]);
+    std::ranges::stable_sort(sorted.links, {}, [&](Index i) { return links[i].label; });
+  }
+}
+
+/// Calls visit(link) for the links of a face with a label, in their order.
+template <class Visit>
+void Borders::each_labelled(Index face, Index label, Visit&& visit) const {
+  if (const auto known = by_label_.find(face); known != by_label_.end() && known->second.first == first[face]) {
+    const auto found = std::ranges::equal_range(known->second.links, label, {}, [&](Index i) { return links[i].label; });
+    for (const Index i : found) visit(i);
+    return;
+  }
+  for (Index i = first[face]; i < first[face] + count[face]; ++i) {
+    if (links[i].label == label) visit(i);
+  }
+}
+
 Index Borders::find_twin(Index face, Index link) const {
   const Index other = links[link].label;
   const Index p = before(face, link), n = after(face, link);
   Index exact = none, near = none;
-  bool several = false;
-  for (Index i = first[other]; i < first[other] + count[other]; ++i) {
-    if (links[i].label != face) continue;
+  bool several = false, several_exact = false;
+  each_labelled(other, face, [&](Index i) {
     const bool starts = before(other, i) == n, stops = after(other, i) == p;
     if (starts && stops) {
-      if (exact != none) return none;
+      several_exact = exact != none;
       exact = i;
     } else if ((starts || coincide(start(other, i), end(link))) && (stops || coincide(end(i), start(face, link)))) {
       several = near != none;
       near = i;
     }
-  }
-  return exact != none ? exact : several ? none : near;
+  });
+  if (exact != none) return several_exact ? none : exact;
+  return several ? none : near;
 }
 
 }  // namespace krepl::voronoi

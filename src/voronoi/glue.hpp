@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "voronoi/diagram.hpp"
@@ -20,8 +21,9 @@ class Borders {
   /// where more than three faces meet, neighbours may differ and the place is the same. None if there is none, or if two
   /// would do.
   Index twin(Index face, Index link) const;
-  /// Room to remember the twins of all links found from now on: a face that stays where it is keeps them.
-  void remember_twins() { twins_.resize(links.size(), none); }
+  /// Room to remember the twins of all links found from now on: a face that stays where it is keeps them. O(faces), and
+  /// sorts the links of faces with many: each of their neighbours looks for its own.
+  void remember_twins();
   /// True if the link has its twin, or lies along the horizon and has no neighbour.
   bool is_sound(Index face, Index link) const {
     return links[link].label == none ? links[link].minimum > horizon_ / 2 : twin(face, link) != none;
@@ -38,6 +40,8 @@ class Borders {
 
  private:
   Index find_twin(Index face, Index link) const;
+  template <class Visit>
+  void each_labelled(Index face, Index label, Visit&& visit) const;
   struct Spot {
     Point place;
     double clearance;
@@ -54,6 +58,11 @@ class Borders {
   const Sites& sites_;
   const Instance& in_;
   double horizon_;
+  struct ByLabel {
+    Index first = none;  // where the face stood: its links stay as they are there
+    std::vector<Index> links;
+  };
+  std::unordered_map<Index, ByLabel> by_label_;  // faces with many links
   mutable std::vector<Index> twins_;  // of links, as far as they are known; written by whoever asks for that link
 };
 
