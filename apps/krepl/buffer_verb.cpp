@@ -67,9 +67,6 @@ Result<BufferPlan> make_plan(const BufferOptions& options) {
   if (!shape) return shape.error();
   plan.shape = *shape;
   if (!is_plain(plan.shape, plan.radii)) {
-    if (needs_features(options.features, options.radius))
-      return Error{ErrorCode::usage, "caps, joins, sides and rings do not go with radii or zones of single features", "",
-                   "leave one of them out"};
     if (options.engine == "voronoi" || options.engine == "sweep")
       return Error{ErrorCode::usage, "--engine " + options.engine + " makes whole round zones only", "", "leave --engine out"};
   }
@@ -222,7 +219,7 @@ int run_buffer(const BufferOptions& options, Session& session) {
     return session.fail(options.output, target.error());
   if (needs_features(options.features, options.radius)) {
     return run_feature_buffer({options.features, options.input, options.output, options.radius, options.engine, plan->format,
-                               plan->file},
+                               plan->file, plan->shape},
                               session);
   }
 

@@ -10,6 +10,7 @@
 #include "input/feature_reader.hpp"
 #include "krepl/zone.hpp"
 #include "output/feature_file.hpp"
+#include "shape_options.hpp"
 #include "stopwatch.hpp"
 
 namespace krepl::app {
@@ -40,6 +41,17 @@ Status check_options(const FeatureJob& job) {
   return std::monostate{};
 }
 
+/// Shapes other than the round zone have one radius each, and are not shared out.
+Status check_shape(const FeatureJob& job, const std::vector<double>& radii) {
+  const FeatureOptions& f = job.features;
+  if (is_plain(job.shape, radii)) return std::monostate{};
+  if (!f.owner.empty())
+    return usage("owners share round zones of positive radii only", "leave caps, joins, sides and rings out");
+  if (radii.empty() && !f.per_feature)
+    return usage("zones of features with radii of their own are round where they share one", "give --per-feature, or one radius");
+  return std::monostate{};
+}
+
 /// One dissolved zone whose features have radii of their own.
 int write_dissolved(const FeatureJob& job, const input::FeatureData& data, Session& session, Stopwatch& total) {
   Network::Builder builder;
@@ -63,10 +75,20 @@ int write_dissolved(const FeatureJob& job, const input::FeatureData& data, Sessi
   return 0;
 }
 
+/// Shapes depend on what is inside of polygons, so what is wrong with their rings is told.
+Status tell_faults(const input::FeatureData& data, const std::string& in_name, Session& session) {
+  Network::Builder builder;
+  std::vector<double> radii;
+  add_features(data, all_features(data), builder, radii);
+  const Result<Network> network = std::move(builder).build(session.context("reading"));
+  if (!network || !network->has_polygons()) return std::monostate{};  // errors are told group by group
+  return tell_ring_faults(*network, in_name, session);
+}
+
 }  // namespace
 
 bool is_radius_expression(const std::string& text) {
-  if (parse_radii(text)) return false;
+  if (parse_signed_radii(text)) return false;
   const std::size_t first = text.find_first_not_of(" +-");
   if (first == text.npos) return false;
   const auto is_letter = [](unsigned char c) { return std::isalpha(c) || c == '"' || c == '_'; };
@@ -107,10 +129,11 @@ int run_feature_buffer(const FeatureJob& job, Session& session) {
   if (is_radius_expression(job.radius)) {
     request.radius_expression = job.radius;
   } else if (!job.radius.empty()) {
-    Result<std::vector<double>> parsed = parse_radii(job.radius);
+    Result<std::vector<double>> parsed = parse_signed_radii(job.radius);
     if (!parsed) return session.fail("", parsed.error());
     radii = std::move(*parsed);
   }
+  if (Status checked = check_shape(job, radii); !checked) return session.fail("", checked.error());
   const std::string in_name = input_name(job.input.path);
   Result<input::FeatureData> data = input::read_features(request, session.context("reading"));
   if (!data) return session.fail(in_name, data.error());
@@ -120,6 +143,9 @@ int run_feature_buffer(const FeatureJob& job, Session& session) {
   with_crs.file.crs = data->crs;
   const FeatureOptions& f = job.features;
   if (!f.per_feature && f.dissolve_by.empty() && f.owner.empty()) return write_dissolved(with_crs, *data, session, total);
+  if (!is_plain(job.shape, radii)) {
+    if (Status told = tell_faults(*data, in_name, session); !told) return session.fail(in_name, told.error());
+  }
   const auto groups = make_groups(*data, f.dissolve_by);
   const GroupJob all{with_crs, *data, groups, radii};
   return f.owner.empty() ? write_groups(all, session) : write_owners(all, session);

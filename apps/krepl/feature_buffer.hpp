@@ -3,6 +3,7 @@
 #include <string>
 
 #include "input/network_reader.hpp"
+#include "krepl/shape.hpp"
 #include "output/zone_file.hpp"
 #include "verbs.hpp"
 
@@ -26,6 +27,7 @@ struct FeatureJob {
   std::string output, radius, engine;
   output::ZoneFormat format;
   output::ZoneFileOptions file;
+  ShapeOptions shape;  ///< but for the distance
 };
 
 /// Whether the job needs features at all; if not, the zone is one of the whole layer at given radii.

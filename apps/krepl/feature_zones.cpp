@@ -11,6 +11,7 @@
 #include "output/feature_file.hpp"
 #include "output/ogr_geometry.hpp"
 #include "output/zone_writers.hpp"
+#include "shape_options.hpp"
 #include "stopwatch.hpp"
 
 namespace krepl::app {
@@ -54,8 +55,12 @@ class GroupZones {
     Result<Network> network = std::move(builder).build(context);
     if (!network) return network.error();
     auto shared = std::make_shared<const Network>(std::move(*network));
-    if (job_.radii.empty()) return compute_zone(std::move(shared), part_radii, context);
-    return compute_zone(std::move(shared), ZoneOptions{job_.radii[k % per_group_]}, context);
+    const bool own = job_.radii.empty();  // then, of all parts of the one feature, the same
+    ShapeOptions shape = job_.job.shape;
+    if (!own || !part_radii.empty()) shape.distance = own ? part_radii.front() : job_.radii[k % per_group_];
+    if (!is_plain(shape, {shape.distance})) return compute_shape(std::move(shared), shape, context);
+    if (own) return compute_zone(std::move(shared), part_radii, context);
+    return compute_zone(std::move(shared), ZoneOptions{shape.distance}, context);
   }
 
   Status compute_block() {
@@ -135,7 +140,7 @@ int write_groups(const GroupJob& job, Session& session) {
   const std::string in_name = input_name(job.job.input.path), out_name = output_name(job.job.output);
   GroupZones zones(job, session.context("computing"));
   const bool counts = !job.job.features.dissolve_by.empty();
-  std::size_t k = 0;
+  std::size_t k = 0, empty = 0;
   double area = 0;
   bool failed_before_writing = false;
   const auto next = [&](const output::GeometryStyle& style) -> Result<std::optional<output::ZoneRow>> {
@@ -147,14 +152,16 @@ int write_groups(const GroupJob& job, Session& session) {
     const FeatureGroup& group = zones.group(k);
     row.attributes = group.row;
     if (counts) row.values.push_back(double(group.features.size()));
-    row.values.insert(row.values.end(), {(*zone)->radius(), (*zone)->area(), (*zone)->perimeter()});
+    row.values.insert(row.values.end(), {(*zone)->signed_radius(), (*zone)->area(), (*zone)->perimeter()});
     area += (*zone)->area();
+    empty += (*zone)->ring_count() == 0 ? 1 : 0;
     ++k;
     return std::optional<output::ZoneRow>(std::move(row));
   };
   auto report = output::write_features(job.job.output, job.job.format, job.job.file.crs, columns_of(job), next);
   if (!report) return session.fail(failed_before_writing ? in_name : out_name, report.error());
   tell(*report, job.job, session);
+  if (empty > 0) session.note(out_name, fmt::format("note: nothing is left of {} zones: their geometry is empty", empty));
   session.summary(fmt::format("{} features; {} zones, areas {:.10g} in all; {:.3f} s", job.data.size(), zones.total(), area,
                               total.seconds()),
                   job.job.output == "-");

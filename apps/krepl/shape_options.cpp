@@ -41,7 +41,9 @@ std::string text_of(RingFault::Kind kind) {
   return "";
 }
 
-Status tell_faults(const Network& network, const std::string& in_name, Session& session) {
+}  // namespace
+
+Status tell_ring_faults(const Network& network, const std::string& in_name, Session& session) {
   constexpr std::size_t most = 10;
   const auto faults = check_rings(network, session.context("checking rings"));
   session.finish_progress();
@@ -59,6 +61,8 @@ Status tell_faults(const Network& network, const std::string& in_name, Session& 
   if (crossed) session.note(in_name, "note: what an odd number of rings of a feature enclose counts as inside");
   return std::monostate{};
 }
+
+namespace {
 
 void tell(const Zone& zone, double seconds, Session& session) {
   const ZoneCounters& c = zone.counters();
@@ -130,7 +134,7 @@ Result<std::vector<double>> parse_signed_radii(std::string_view text) {
 Result<std::vector<Zone>> shaped_zones(std::shared_ptr<const Network> network, const std::vector<double>& radii,
                                        const ShapeOptions& shape, const std::string& in_name, Session& session) {
   if (network->has_polygons()) {
-    if (Status told = tell_faults(*network, in_name, session); !told) return told.error();
+    if (Status told = tell_ring_faults(*network, in_name, session); !told) return told.error();
   }
   std::vector<Zone> zones;
   for (const double radius : radii) {

@@ -28,6 +28,9 @@ bool is_plain(const ShapeOptions& shape, const std::vector<double>& radii);
 /// As parse_radii, but single radii may be negative.
 Result<std::vector<double>> parse_signed_radii(std::string_view text);
 
+/// Notes about what is wrong with the rings of polygons.
+Status tell_ring_faults(const Network& network, const std::string& in_name, Session& session);
+
 /// The zones at these radii, negative ones shrunk; tells on standard error what is wrong with the rings of the
 /// polygons, and what comes out empty. `in_name` names the input in messages.
 Result<std::vector<Zone>> shaped_zones(std::shared_ptr<const Network> network, const std::vector<double>& radii,

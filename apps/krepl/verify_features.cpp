@@ -8,6 +8,7 @@
 
 #include "feature_zones.hpp"
 #include "input/result_file.hpp"
+#include "shape_options.hpp"
 #include "verify/owner_verifier.hpp"
 
 namespace krepl::app {
@@ -69,7 +70,8 @@ Result<Loaded> load(const FeatureVerification& job, Session& session, bool& faul
   all.data = std::move(*data);
   all.groups = make_groups(all.data, job.features.dissolve_by);
   fault_of_result = true;
-  auto zones = input::read_zone_features(job.result);
+  // Shrunk polygons may be gone; every feature has its row all the same.
+  auto zones = input::read_zone_features(job.result, input::EmptyZones::keep);
   if (!zones) return zones.error();
   all.zones = std::move(*zones);
   if (all.zones.empty() || all.zones.size() % all.groups.size() != 0) {
@@ -88,6 +90,17 @@ Result<double> radius_of(const FeatureVerification& job, const Loaded& all, std:
   if (!job.radii.empty()) return job.radii[k % job.radii.size()];
   if (all.zones[k].radius) return *all.zones[k].radius;
   return Error{ErrorCode::usage, "the result does not tell its radius", "", "give one with --radius"};
+}
+
+Result<verify::ZoneReport> check_one(const std::vector<input::ResultPolygon>& polygons, const Parts& parts,
+                                     const ShapeOptions& shape, const verify::ZoneCheckOptions& options,
+                                     const Context& context) {
+  if (is_plain(shape, {options.radius}))
+    return verify::check_zone(polygons, verify::Obstacle(parts, options.radius), options, context);
+  verify::ZoneCheckOptions check = options;
+  // Parabolas in the border of a one-sided zone are chords (docs/shape.md).
+  if (shape.side != Side::both && check.max_error == 0) check.max_error = 2e-6 * options.radius;
+  return verify::check_shape(polygons, parts, shape_question(shape, options.radius), check, context);
 }
 
 Result<std::vector<verify::Check>> check_groups(const FeatureVerification& job, const Loaded& all, std::string& broken,
@@ -109,8 +122,7 @@ Result<std::vector<verify::Check>> check_groups(const FeatureVerification& job, 
     const Result<double> radius = radius_of(job, all, k, parts);
     if (!radius) return radius.error();
     options.radius = *radius;
-    const verify::Obstacle obstacle(parts, *radius);
-    auto report = verify::check_zone(all.zones[k].polygons, obstacle, options, quiet);
+    auto report = check_one(all.zones[k].polygons, parts, job.shape, options, quiet);
     if (!report) return report.error();
     if (!report->ok() && broken.empty()) broken = group.name;
     add(total, report->checks);

@@ -112,6 +112,14 @@ void print_checks(Session& session, const std::vector<verify::Check>& checks) {
   }
 }
 
+verify::ShapeQuestion shape_question(const ShapeOptions& shape, double radius) {
+  verify::ShapeQuestion question;
+  question.distance = radius, question.mitre_limit = shape.mitre_limit, question.ring = shape.ring;
+  question.cap = verify::ShapeQuestion::Cap(shape.cap), question.join = verify::ShapeQuestion::Join(shape.join);
+  question.side = verify::ShapeQuestion::Side(shape.side);
+  return question;
+}
+
 namespace {
 
 void print(Session& session, const verify::ZoneReport& report) {
@@ -138,14 +146,6 @@ void print(Session& session, const verify::SurfaceReport& report) {
   session.summary(fmt::format("area of the projection {:.12g}, S {:.6g}, tolerance {:.2g}", report.area, report.scale,
                               report.tolerance));
   print_checks(session, report.checks);
-}
-
-verify::ShapeQuestion shape_question(const ShapeOptions& shape, double radius) {
-  verify::ShapeQuestion question;
-  question.distance = radius, question.mitre_limit = shape.mitre_limit, question.ring = shape.ring;
-  question.cap = verify::ShapeQuestion::Cap(shape.cap), question.join = verify::ShapeQuestion::Join(shape.join);
-  question.side = verify::ShapeQuestion::Side(shape.side);
-  return question;
 }
 
 /// All polygons are one zone, whose radius is the largest of the features'.
@@ -177,7 +177,7 @@ int verify_zones(const VerifyOptions& options, Session& session) {
   if (!shape) return session.fail("", shape.error());
   const FeatureOptions& f = options.features;
   if (f.per_feature || !f.dissolve_by.empty() || !f.owner.empty())
-    return verify_features({options.result, options.input, f, radii, check.max_error, options.samples}, session);
+    return verify_features({options.result, options.input, f, radii, *shape, check.max_error, options.samples}, session);
   auto zones = input::read_zones(options.result, input::EmptyZones::keep);
   if (!zones) return session.fail(options.result, zones.error());
   if (options.bands) {

@@ -63,7 +63,8 @@ Result<std::vector<ResultZone>> collect_zones(GeometrySource& source, bool merge
     if (!item) return item.error();
     if (!item->has_value()) break;
     const GeometrySource::Item& record = **item;
-    if (record.geometry == nullptr || (record.geometry->IsEmpty() && empty == EmptyZones::drop)) continue;
+    const bool is_none = record.geometry == nullptr;  // what Shapefile makes of an empty one
+    if ((is_none && merge) || ((is_none || record.geometry->IsEmpty()) && empty == EmptyZones::drop)) continue;
     std::optional<double> radius = merge ? std::nullopt : number_field(record.feature, "zone_radius");
     if (!radius) radius = number_field(record.feature, "radius");
     auto known =
@@ -72,6 +73,7 @@ Result<std::vector<ResultZone>> collect_zones(GeometrySource& source, bool merge
       zones.push_back({radius, {}, {}, merge ? number_field(record.feature, "inner") : std::nullopt});
       known = zones.end() - 1;
     }
+    if (is_none) continue;
     Status appended = append_polygons(*record.geometry, source.place(record.number), known->polygons);
     if (!appended) return appended.error();
   }
@@ -159,11 +161,11 @@ Result<std::unique_ptr<GeometrySource>> open_zones(const std::string& path, bool
 
 }  // namespace
 
-Result<std::vector<ResultZone>> read_zone_features(const std::string& path) {
+Result<std::vector<ResultZone>> read_zone_features(const std::string& path, EmptyZones empty) {
   bool has_pieces = false;
   auto source = open_zones(path, has_pieces);
   if (!source) return source.error();
-  return collect_zones(**source, false, EmptyZones::drop);
+  return collect_zones(**source, false, empty);
 }
 
 Result<std::vector<ResultZone>> read_zones(const std::string& path, EmptyZones empty) {

@@ -42,6 +42,6 @@ Result<std::vector<ResultZone>> read_zones(const std::string& path, EmptyZones e
 
 /// The same with each feature a zone of its own, in the file's order; without the provenance of pieces. Where the input
 /// of the result had a field `radius`, the zone's is read from `zone_radius`.
-Result<std::vector<ResultZone>> read_zone_features(const std::string& path);
+Result<std::vector<ResultZone>> read_zone_features(const std::string& path, EmptyZones empty = EmptyZones::drop);
 
 }  // namespace krepl::input

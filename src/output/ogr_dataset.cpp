@@ -4,6 +4,16 @@
 
 namespace krepl::output {
 
+namespace {
+
+/// Empty geometries come back as none from some formats.
+bool holds_something(const OGRFeature& feature) {
+  const OGRGeometry* geometry = feature.GetGeometryRef();
+  return geometry != nullptr && !geometry->IsEmpty();
+}
+
+}  // namespace
+
 OgrDataset::OgrDataset(std::string driver, const std::string& crs)
     : driver_(std::move(driver)),
       fixed_date_("OGR_CURRENT_DATE", file_date("%Y-%m-%dT%H:%M:%S.000Z")),
@@ -48,7 +58,7 @@ Result<OGRLayer*> OgrDataset::create_layer(const char* name, OGRwkbGeometryType 
 Status OgrDataset::add(OGRLayer& layer, OGRFeature& feature) {
   messages_.clear();
   if (layer.CreateFeature(&feature) != OGRERR_NONE || messages_.failed()) return failure("cannot be written");
-  ++added_;
+  if (holds_something(feature)) ++added_;
   return std::monostate{};
 }
 
@@ -68,7 +78,7 @@ Status OgrDataset::check_count(const std::string& path) {
       GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
   if (!again || again->GetLayerCount() == 0) return failure("cannot be read back after writing");
   std::size_t found = 0;
-  for (const auto& feature : *again->GetLayer(0)) found += feature->GetGeometryRef() != nullptr ? 1 : 0;
+  for (const auto& feature : *again->GetLayer(0)) found += holds_something(*feature) ? 1 : 0;
   if (messages_.failed() || found != added_) return failure("is not complete after writing");
   return std::monostate{};
 }

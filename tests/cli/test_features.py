@@ -174,6 +174,59 @@ class Features(support.CliTest):
         self.fail_with(2, "format svg holds no features; choose gpkg, fgb, geojson, shp, wkt or wkb", "buffer", name, "out.svg",
                        "--radius", 1, "--per-feature", output="out.svg")
 
+    # --- shapes of features
+
+    def square(self, x, size, **properties):
+        ring = [[x, 0], [x + size, 0], [x + size, size], [x, size], [x, 0]]
+        return feature({"type": "Polygon", "coordinates": [ring]}, **properties)
+
+    def test_caps_joins_and_sides_of_each_feature(self):
+        name = self.layer(feature(line([0, 0], [10, 0]), name="a"), feature(line([5, 1], [5, 11], [15, 11]), name="b"),
+                          feature(point(60, 0), name="c"))
+        for options, areas in ((["--cap", "flat"], (20, 39 + PI / 4, 0)), (["--cap", "square"], (24, 43 + PI / 4, 4)),
+                               (["--cap", "flat", "--join", "mitre"], (20, 40, 0)),
+                               (["--cap", "flat", "--join", "bevel"], (20, 39.5, 0)), (["--side", "left"], (10, 20 + PI / 4, 0))):
+            with self.subTest(options=options):
+                self.succeed("buffer", name, "out.gpkg", "--radius", 1, "--per-feature", *options)
+                rows = self.rows("out.gpkg", "name, radius, area")
+                self.assertEqual([row[:2] for row in rows], [("a", 1), ("b", 1), ("c", 1)])
+                for row, area in zip(rows, areas):
+                    self.assertAlmostEqual(row[2], area, delta=1e-11 * 40)
+                self.succeed("verify", "out.gpkg", "--against", name, "--per-feature", *options)
+        wrong = self.krepl("verify", "out.gpkg", "--against", name, "--per-feature", "--cap", "square")
+        self.assertEqual(wrong.returncode, 1)
+
+    def test_polygons_shrink_one_by_one(self):
+        name = self.layer(self.square(0, 10, name="a"), self.square(5, 3, name="b"))  # they overlap
+        for extension in ("gpkg", "geojson", "shp", "wkt"):
+            with self.subTest(extension):
+                done = self.succeed("buffer", name, f"out.{extension}", "--radius", "-2,1", "--per-feature")
+                self.assertIn(f"out.{extension}: note: nothing is left of 1 zones: their geometry is empty", done.stderr)
+                error = [] if extension in ("gpkg", "wkt") else ["--max-error", 1e-3]
+                self.succeed("verify", f"out.{extension}", "--against", name, "--per-feature", "--radius", "-2,1", *error)
+        self.succeed("buffer", name, "out.gpkg", "--radius", "-2,1", "--per-feature")
+        rows = self.rows("out.gpkg", "name, radius, area")
+        self.assertEqual([row[:2] for row in rows], [("a", -2), ("a", 1), ("b", -2), ("b", 1)])
+        for row, area in zip(rows, (36, 140 + PI, 0, 21 + PI)):
+            self.assertAlmostEqual(row[2], area, delta=1e-9)
+        self.succeed("buffer", name, "ring.gpkg", "--radius", 1, "--per-feature", "--ring")
+        for row, area in zip(self.rows("ring.gpkg", "area"), (40 + PI, 12 + PI)):
+            self.assertAlmostEqual(row[0], area, delta=1e-9)
+
+    def test_shapes_by_radii_of_features(self):
+        name = self.three()
+        self.succeed("buffer", name, "out.gpkg", "--radius-field", "width", "--per-feature", "--cap", "flat")
+        for row, area in zip(self.rows("out.gpkg", "area"), (20, 40, 0)):
+            self.assertAlmostEqual(row[0], area, delta=1e-10)
+        self.succeed("verify", "out.gpkg", "--against", name, "--radius-field", "width", "--per-feature", "--cap", "flat")
+        self.succeed("buffer", name, "out.gpkg", "--radius", 1, "--dissolve-by", "kind", "--cap", "flat")
+        for row, area in zip(self.rows("out.gpkg", "area"), (20, 20)):
+            self.assertAlmostEqual(row[0], area, delta=1e-10)
+        self.fail_with(2, "zones of features with radii of their own are round where they share one; give --per-feature, or one "
+                          "radius", "buffer", name, "none.gpkg", "--radius-field", "width", "--cap", "flat", output="none.gpkg")
+        self.fail_with(2, "owners share round zones of positive radii only; leave caps, joins, sides and rings out",
+                       "buffer", name, "none.gpkg", "--radius", 1, "--owner", "nearest", "--join", "bevel", output="none.gpkg")
+
     # --- groups
 
     def test_dissolve_by_a_field(self):
