@@ -558,10 +558,41 @@ std::optional<PointOf<Real>> Cells<Real>::level_of_walls(Point p) const {
   return std::nullopt;
 }
 
+/// Where two balls about vertices of one height touch.
+template <class Real>
+std::optional<PointOf<Real>> Cells<Real>::touch_of_balls(Index a, Index b) const {
+  if (a == none || b == none || a == b) return std::nullopt;
+  const PatchSet<Real>& patches = envelope_.patches();
+  const Patch &f = patches[a], &g = patches[b];
+  if (f.kind != Terrain::FeatureKind::vertex || g.kind != Terrain::FeatureKind::vertex) return std::nullopt;
+  const Real rounding = 0x1p-50 * patches.radius();
+  const Real apart = norm(g.at.x - f.at.x, g.at.y - f.at.y) - 2 * patches.radius();
+  if (absolute(f.z - g.z) > rounding || absolute(apart) > rounding) return std::nullopt;
+  return Point{(f.at.x + g.at.x) / 2, (f.at.y + g.at.y) / 2};
+}
+
+/// So far from there what runs between the two may be too thin to show: it is as wide as the square of that.
+template <class Real>
+Real Cells<Real>::reach_of_touch() const {
+  return 4 * square_root(envelope_.patches().radius() * envelope_.rim_width());
+}
+
+template <class Real>
+std::optional<PointOf<Real>> Cells<Real>::touch_of_balls_beside(Point p) const {
+  for (std::size_t i = 0; i < turns_.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::optional<Point> touch = touch_of_balls(turns_[i].after, turns_[j].after);
+      if (touch && norm(touch->x - p.x, touch->y - p.y) < reach_of_touch()) return touch;
+    }
+  }
+  return std::nullopt;
+}
+
 /// The place close to p that is known without following curves that are tangent, or p.
 template <class Real>
 PointOf<Real> Cells<Real>::known_beside(Point p) const {
   if (const std::optional<Point> corner = corner_beside(p)) return *corner;
+  if (const std::optional<Point> touch = touch_of_balls_beside(p)) return *touch;
   return level_of_walls(p).value_or(p);
 }
 

@@ -92,6 +92,9 @@ class Cells {
   Point least_gap(const Box& box) const;
   std::optional<Point> corner_beside(Point p) const;
   std::optional<Point> level_of_walls(Point p) const;
+  std::optional<Point> touch_of_balls(Index a, Index b) const;
+  std::optional<Point> touch_of_balls_beside(Point p) const;
+  Real reach_of_touch() const;
   Point known_beside(Point p) const;
   std::optional<Point> common_corner(const Box& box) const;
   bool all_reach(Point p) const;

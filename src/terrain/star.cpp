@@ -106,17 +106,19 @@ bool Cells<Real>::is_covered(Point p) const {
 }
 
 /// The one corner in the box of a patch two of whose sides are among the turns, or that two patches among the labels
-/// have.
+/// have, or the place where two balls touch.
 template <class Real>
 std::optional<PointOf<Real>> Cells<Real>::common_corner(const Box& box) const {
   std::optional<Point> found;
-  const auto consider = [&](Index patch, auto&& wanted) {  // false: there are two
-    for (const Point c : envelope_.patches().corners(patch)) {
-      if (!box.contains(c) || !wanted(c)) continue;
-      if (found && norm(found->x - c.x, found->y - c.y) > envelope_.tolerance()) return false;
-      if (!found) found = c;
-    }
+  const auto consider_place = [&](Point c) {  // false: there are two
+    if (!box.contains(c)) return true;
+    if (found && norm(found->x - c.x, found->y - c.y) > envelope_.tolerance()) return false;
+    if (!found) found = c;
     return true;
+  };
+  const auto consider = [&](Index patch, auto&& wanted) {
+    const std::span<const Point> corners = envelope_.patches().corners(patch);
+    return std::all_of(corners.begin(), corners.end(), [&](Point c) { return !wanted(c) || consider_place(c); });
   };
   for (std::size_t i = 0; i < turns_.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -126,6 +128,8 @@ std::optional<PointOf<Real>> Cells<Real>::common_corner(const Box& box) const {
       const Index a = turns_[i].after, b = turns_[j].after;
       if (a == none || b == none || a == b) continue;
       if (!consider(a, [&](Point c) { return share_corner(a, b, c); })) return std::nullopt;
+      const std::optional<Point> touch = touch_of_balls(a, b);
+      if (touch && !consider_place(*touch)) return std::nullopt;
     }
   }
   return found;
@@ -282,12 +286,14 @@ std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
     return converged && box.contains(p) ? std::optional(p) : std::nullopt;
   };
   if (corner) {
+    const std::optional<Point> touch = touch_of_balls_beside(*corner);
+    const Real near = touch ? reach_of_touch() : 16 * tolerance;
     // Two curves in a row that bound one patch, and meet elsewhere in the box.
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t j = (i + 1) % n;
       for (const Point start : {middle, turns_[i].at, turns_[j].at}) {
         const std::optional<Point> p = solve(anywhere[i], anywhere[j], start);
-        if (!p || norm(p->x - corner->x, p->y - corner->y) <= 16 * tolerance) continue;
+        if (!p || norm(p->x - corner->x, p->y - corner->y) <= near) continue;
         if (shows_at(turns_[i].before, *p) && shows_at(turns_[i].after, *p) && shows_at(turns_[j].after, *p))
           return std::nullopt;
       }
