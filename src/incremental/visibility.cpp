@@ -1,6 +1,7 @@
 #include "incremental/visibility.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace krepl::incremental {
 
@@ -269,8 +270,27 @@ class Search {
         const Real third = (b - a) / 3;
         (at(a + third) < at(b - third) ? b : a) = at(a + third) < at(b - third) ? b - third : a + third;
       }
-      i.touches.push_back({(a + b) / 2, low.from, low.to});
+      i.touches.push_back({lowest_place(low.condition, (a + b) / 2), low.from, low.to});
     }
+  }
+
+  /// The place of a minimum close to t. Rounding decides where the function is lowest, so it is taken halfway between places at which
+  /// it is equally high farther off, which moves with the square of their distance.
+  Real lowest_place(Index k, Real t) const {
+    const auto at = [&](Real x) { return value(k, sample(x)); };
+    const auto halfway = [&](Real off) -> std::optional<Real> {
+      const Real right = t + off, level = at(right);
+      Real inside = t, outside = t - 2 * off;
+      if (right > end_ || outside < begin_ || at(inside) >= level || at(outside) <= level) return std::nullopt;
+      for (int i = 0; i < 64; ++i) {
+        const Real middle = (inside + outside) / 2;
+        (at(middle) < level ? inside : outside) = middle;
+      }
+      return (right + inside) / 2;
+    };
+    const Real off = (end_ - begin_) * 0x1p-16L;
+    const std::optional<Real> far = halfway(off), near = halfway(off / 2);
+    return far && near ? (4 * *near - *far) / 3 : t;
   }
 
   /// An end moved to where its condition is zero, and how far from there that is within the tolerance.
