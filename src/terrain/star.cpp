@@ -118,7 +118,8 @@ std::optional<PointOf<Real>> Cells<Real>::common_corner(const Box& box) const {
   };
   const auto consider = [&](Index patch, auto&& wanted) {
     const std::span<const Point> corners = envelope_.patches().corners(patch);
-    return std::all_of(corners.begin(), corners.end(), [&](Point c) { return !wanted(c) || consider_place(c); });
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](Point c) { return !box.contains(c) || !wanted(c) || consider_place(c); });
   };
   for (std::size_t i = 0; i < turns_.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
