@@ -27,7 +27,7 @@ Touch BallBodies::at(std::size_t body, double t) const {
   const Point d = line_.direction;
   drop::FaceTouch face;
   if (!p.vertical) face = drop::touch_face(p.corner[0], p.corner[1], p.corner[2], ball);
-  Point3 touched{};
+  Point3 touched{}, edge_run{};
   double height = drop::nothing;
   if (face.beyond == 0) {
     height = face.height;
@@ -44,7 +44,8 @@ Touch BallBodies::at(std::size_t body, double t) const {
       if (edge.height > height) {
         height = edge.height;
         const Point3 q = p.corner[a], r = p.corner[b];
-        touched = {q.x + edge.along * (r.x - q.x), q.y + edge.along * (r.y - q.y), q.z + edge.along * (r.z - q.z)};
+        edge_run = {r.x - q.x, r.y - q.y, r.z - q.z};
+        touched = {q.x + edge.along * edge_run.x, q.y + edge.along * edge_run.y, q.z + edge.along * edge_run.z};
       }
       if (edge.ends & 1) corners |= 1u << a;
       if (edge.ends & 2) corners |= 1u << b;
@@ -52,12 +53,15 @@ Touch BallBodies::at(std::size_t body, double t) const {
     for (unsigned i = 0; i < 3; ++i) {
       if ((corners & (1u << i)) == 0) continue;
       const double h = drop::touch_vertex(p.corner[i], ball).height;
-      if (h > height) height = h, touched = p.corner[i];
+      if (h > height) height = h, touched = p.corner[i], edge_run = {};
     }
   }
-  // The normal points from the touched point to the centre.
-  const double across = (place.x - touched.x) * d.x + (place.y - touched.y) * d.y;
-  return {height, -across / (height - touched.z)};
+  // The normal points from the touched point to the centre, and does not tell the slope where it is level: on the way along a wall, just
+  // out of reach but for rounding.
+  const double across = (place.x - touched.x) * d.x + (place.y - touched.y) * d.y, up = height - touched.z;
+  if (up > 0) return {height, -across / up};
+  const double square = edge_run.x * edge_run.x + edge_run.y * edge_run.y;
+  return {height, square > 0 ? edge_run.z * (edge_run.x * d.x + edge_run.y * d.y) / square : 0};
 }
 
 double BallBodies::top_of_narrow(std::size_t body, double width) const {

@@ -5,6 +5,9 @@
 #include <map>
 #include <random>
 
+#include "krepl/drop_cutter.hpp"
+#include "mill/ball_bodies.hpp"
+#include "mill/drive_curve.hpp"
 #include "mill/path_check.hpp"
 #include "support/environment.hpp"
 #include "support/small_terrain.hpp"
@@ -162,6 +165,32 @@ TEST(ParallelPasses, LeaveNoMoreThanTheScallopOnSlopesAndDomes) {
     EXPECT_EQ(over, 0u) << "angle " << angle << ", worst " << worst << ", of " << places;
     EXPECT_GT(worst, 0.7 * o.scallop);
     std::printf("angle %g: %zu of %zu places over the scallop, worst %g\n", angle, over, places, worst);
+  }
+}
+
+// The ball just touches the edge of a roof all along: the normal there is level.
+TEST(DriveCurves, StayBetweenFloorAndEdgeAlongAWallAtExactlyTheRadius) {
+  for (const double rise : {0.0, 0.25}) {
+    auto roof = Terrain::from_triangles({{0, 0, 1}, {1, 0, 1}, {1, 1, 1 + rise}, {0, 1, 1 + rise}}, {{0, 1, 2}, {0, 2, 3}});
+    ASSERT_TRUE(roof);
+    const auto part = std::make_shared<const Terrain>(std::move(*roof));
+    const auto cutter = DropCutter::build(part, 0.5);
+    ASSERT_TRUE(cutter);
+    const Point3 origin = part->origin();
+    constexpr double floor = -1;
+    for (const double side : {-0.5, 1.5}) {
+      for (const double direction : {1.0, -1.0}) {
+        mill::BallBodies bodies(*cutter);
+        mill::DriveCurve curve(bodies, {floor, 1e-3, 1e-7, 1e-3});
+        std::vector<mill::CurveRun> runs;
+        const mill::Line line{{side - origin.x, (direction > 0 ? -1 : 2) - origin.y}, {0, direction}};
+        curve.trace(line, 0, 3, true, runs);
+        ASSERT_EQ(runs.size(), 1u);
+        for (const mill::CurvePoint& p : runs.front()) {
+          EXPECT_TRUE(p.z >= floor && p.z <= 1 + rise - origin.z + 1e-3) << p.z << " at " << p.t << ", rise " << rise;
+        }
+      }
+    }
   }
 }
 
