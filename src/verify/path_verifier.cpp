@@ -12,6 +12,7 @@ namespace krepl::verify {
 namespace {
 
 constexpr std::uint64_t usual_samples = 200000;
+constexpr double farthest = 1000;  // from the part, in units of S: a machine's home may be away from it
 
 /// One move of the ball's centre, as a curve over [0,1].
 class Way {
@@ -68,6 +69,16 @@ double depth_at(const Solid& solid, Space<Real> p, const PathCheckOptions& optio
   return depth <= limit ? depth : options.radius - solid.distance_carefully(centre, options.radius);
 }
 
+/// How far the ends of moves are from the part's middle: what leads away, the checks of places along the path would hardly look at.
+Tally stray(const ToolPath& path, const Solid& solid, double allowed) {
+  Tally tally;
+  for (const Move& move : path.moves) {
+    const Point3 o = solid.origin(), p = move.end;
+    tally.add(std::max({std::abs(p.x - o.x), std::abs(p.y - o.y), std::abs(p.z - o.z)}), allowed, {p.x, p.y});
+  }
+  return tally;
+}
+
 }  // namespace
 
 Result<PathReport> check_path(const ToolPath& path, const Terrain& part, const PathCheckOptions& options,
@@ -108,6 +119,7 @@ Result<PathReport> check_path(const ToolPath& path, const Terrain& part, const P
   };
   report.checks.push_back(check(false).check("cutting moves stay out", report.tolerance));
   report.checks.push_back(check(true).check("rapid moves stay out", report.tolerance));
+  report.checks.push_back(stray(path, solid, farthest * report.scale).check("moves stay near the part", farthest * report.scale));
   if (context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
   return report;
 }

@@ -41,7 +41,7 @@ struct PathReport {
 /// Whether a ball that follows the path stays out of the part (and of everything below its upper side): at many places
 /// of each move, ends and middle included, its centre's distance from all triangles and what is below them is R at
 /// least. Of another cutter: no point of a triangle is inside of it. Arcs are followed on the circle. Between places the tool can be
-/// deeper by half a step at most. `path` in the
+/// deeper by half a step at most; so no move may lead farther away than 1000 S. `path` in the
 /// part's coordinates. Errors: radius not finite and positive, no move, cancelled.
 Result<PathReport> check_path(const ToolPath& path, const Terrain& part, const PathCheckOptions& options,
                               const Context& context = {});

@@ -217,6 +217,14 @@ class Mill(support.CliTest):
         self.fail_with(2, "tool 'flat:3' has no centre; give --control-point tip", "verify", "out.ngc", "--against", "part.off", "--tool", "flat:3",
                        "--control-point", "centre", output="none")
 
+    def test_moves_that_lead_away_are_told(self):
+        text = self.program()
+        first = re.search(r"^G1.*$", text, re.M)
+        self.write("away.ngc", text[:first.start()] + "G1 Z-1000000000 F100\n" + text[first.start():])
+        done = self.krepl("verify", "away.ngc", "--against", "part.off", "--tool", "ball:3")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stdout, r"moves stay near the part +\d+ +[1-9]")
+
     def test_cutters_that_a_strategy_cannot_take(self):
         for strategy in (("--strategy", "scallop", "--scallop", "0.1"), ("--strategy", "pencil")):
             self.fail_with(2, "paths of tool 'flat:3' are made by strategies parallel, waterline and rough only; use one of them, or --tool "
