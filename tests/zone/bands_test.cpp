@@ -75,8 +75,12 @@ TEST(Bands, PiecesAreThoseOfTheZones) {
     const bool is_inner = e >= outer->piece_count();
     EXPECT_EQ(band->is_inner(e), is_inner);
     EXPECT_EQ(band->piece(e).radius, is_inner ? 1 : 2);
-    if (!is_inner) EXPECT_EQ(band->piece(e).start, outer->piece(e).start);
-    if (is_inner && band->piece(e).kind == Zone::Kind::arc) EXPECT_TRUE(band->piece(e).clockwise);
+    if (!is_inner) {
+      EXPECT_EQ(band->piece(e).start, outer->piece(e).start);
+    }
+    if (is_inner && band->piece(e).kind == Zone::Kind::arc) {
+      EXPECT_TRUE(band->piece(e).clockwise);
+    }
   }
   EXPECT_FALSE(outer->is_inner(0));
   EXPECT_EQ(outer->inner_radius(), 0);
