@@ -2,6 +2,8 @@
 // coordinates are exact here unless their exponents lie more than 60 apart.
 #include "terrain/drop_cutter_touch.hpp"
 
+#include <cmath>
+
 namespace krepl::drop {
 
 using kernel::quad;
@@ -42,6 +44,27 @@ FaceTouch touch_face_quad(Point3 a, Point3 b, Point3 c, const Ball& ball) {
   const unsigned beyond = unsigned(w <= 0) | unsigned(v + w >= nz) << 1 | unsigned(v <= 0) << 2;
   if (beyond != 0) return {nothing, 0, 0, beyond};
   return {double(a.z + (v * uz + w * vz) / nz + nz * scale), double(v / nz), double(w / nz), 0};
+}
+
+// Places are mostly far from the strip over which a steep face is touched, which is narrow.
+FaceTouch touch_face_carefully(Point3 a, Point3 b, Point3 c, const Ball& ball) {
+  constexpr double rounding = 0x1p-50;  // of a few operations
+  const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+  const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+  const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+  const double normal = std::sqrt(nx * nx + ny * ny + nz * nz);
+  const double sides = std::sqrt((ux * ux + uy * uy + uz * uz) * (vx * vx + vy * vy + vz * vz));
+  const double of_normal = rounding * sides, of_nz = rounding * (std::abs(ux * vy) + std::abs(uy * vx));
+  if (!(normal > 16 * of_normal && nz > of_nz)) return touch_face_quad(a, b, c, ball);
+  const double dx = ball.place.x - a.x, dy = ball.place.y - a.y, scale = ball.radius / normal;
+  const double ex = dx - nx * scale, ey = dy - ny * scale;
+  const double of_e = 2 * ball.radius * of_normal / normal + rounding * (std::abs(dx) + std::abs(dy) + ball.radius);
+  const double v = ex * vy - ey * vx, w = ux * ey - uy * ex;
+  const double of_v = (of_e + rounding * (std::abs(ex) + std::abs(ey))) * (std::abs(vx) + std::abs(vy));
+  const double of_w = (of_e + rounding * (std::abs(ex) + std::abs(ey))) * (std::abs(ux) + std::abs(uy));
+  const double third = v + w - nz, of_third = of_v + of_w + of_nz + rounding * (std::abs(v) + std::abs(w) + nz);
+  if (!(w < -of_w || third > of_third || v < -of_v)) return touch_face_quad(a, b, c, ball);
+  return {nothing, 0, 0, unsigned(w <= of_w) | unsigned(third >= -of_third) << 1 | unsigned(v <= of_v) << 2};
 }
 
 }  // namespace krepl::drop

@@ -44,7 +44,7 @@ struct EdgeTouch {
 struct FaceTouch {
   double height = nothing;
   double v = 0, w = 0;  // touched point: a + v (b - a) + w (c - a), all three weights > 0
-  /// Sides beyond which a ball on the face's plane would touch it, or on which: bit i for the side from corner i to corner
+  /// Sides beyond which a ball on the face's plane would touch it, or on which, or near which if there is one of these: bit i for the side from corner i to corner
   /// i + 1. The highest touch of the closed triangle is on the face if there is none, else on one of these sides: the height
   /// as a function of the touched point is concave, so it grows along the way to where the plane is touched.
   unsigned beyond = 7;
@@ -62,6 +62,8 @@ inline constexpr double face = 0x1p-18;       // of |n|^2 |d1|^2 |d2|^2 for n.z^
 VertexTouch touch_vertex_quad(Point3 v, const Ball& ball);
 EdgeTouch touch_edge_quad(Point3 a, Point3 b, const Ball& ball);
 FaceTouch touch_face_quad(Point3 a, Point3 b, Point3 c, const Ball& ball);
+/// Of a steep or thin face: in double as far as that tells for certain that the face is not touched inside.
+FaceTouch touch_face_carefully(Point3 a, Point3 b, Point3 c, const Ball& ball);
 
 inline VertexTouch touch_vertex(Point3 v, const Ball& ball) {
   const double x = ball.place.x - v.x, y = ball.place.y - v.y;
@@ -102,7 +104,7 @@ inline FaceTouch touch_face(Point3 a, Point3 b, Point3 c, const Ball& ball) {
   const double normal = nx * nx + ny * ny + nz * nz;
   const double sides = (ux * ux + uy * uy + uz * uz) * (vx * vx + vy * vy + vz * vz);
   if (!(nz > 0 && (nz * nz) * (nz * nz) >= budget::face * normal * sides)) [[unlikely]] {
-    return touch_face_quad(a, b, c, ball);
+    return touch_face_carefully(a, b, c, ball);
   }
   const double scale = ball.radius / std::sqrt(normal);
   const double ex = ball.place.x - a.x - nx * scale, ey = ball.place.y - a.y - ny * scale;
