@@ -41,8 +41,9 @@ double joint_height(const Arcs& arcs, std::size_t i, std::size_t k, Real x) {
 /// What a face tells: these among others, where all are few.
 std::span<const Hint> hints_about(std::span<const Hint> hints, Index face) {
   if (hints.size() <= few_hints) return hints;
-  const auto found = std::ranges::equal_range(hints, face, {}, &Hint::face);
-  return {found.begin(), found.end()};
+  const auto first = std::partition_point(hints.begin(), hints.end(), [&](const Hint& h) { return h.face < face; });
+  const auto last = std::partition_point(first, hints.end(), [&](const Hint& h) { return h.face == face; });
+  return {first, last};
 }
 
 }  // namespace

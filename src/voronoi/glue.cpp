@@ -96,7 +96,7 @@ void Borders::remember_twins() {
     sorted.first = first[face];
     sorted.links.resize(count[face]);
     std::iota(sorted.links.begin(), sorted.links.end(), first[face]);
-    std::ranges::stable_sort(sorted.links, {}, [&](Index i) { return links[i].label; });
+    std::stable_sort(sorted.links.begin(), sorted.links.end(), [&](Index a, Index b) { return links[a].label < links[b].label; });
   }
 }
 
@@ -104,8 +104,9 @@ void Borders::remember_twins() {
 template <class Visit>
 void Borders::each_labelled(Index face, Index label, Visit&& visit) const {
   if (const auto known = by_label_.find(face); known != by_label_.end() && known->second.first == first[face]) {
-    const auto found = std::ranges::equal_range(known->second.links, label, {}, [&](Index i) { return links[i].label; });
-    for (const Index i : found) visit(i);
+    const std::vector<Index>& sorted = known->second.links;
+    auto i = std::partition_point(sorted.begin(), sorted.end(), [&](Index l) { return links[l].label < label; });
+    for (; i != sorted.end() && links[*i].label == label; ++i) visit(*i);
     return;
   }
   for (Index i = first[face]; i < first[face] + count[face]; ++i) {
