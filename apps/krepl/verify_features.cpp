@@ -98,8 +98,7 @@ Result<verify::ZoneReport> check_one(const std::vector<input::ResultPolygon>& po
   if (is_plain(shape, {options.radius}))
     return verify::check_zone(polygons, verify::Obstacle(parts, options.radius), options, context);
   verify::ZoneCheckOptions check = options;
-  // Parabolas in the border of a one-sided zone are chords (docs/shape.md).
-  if (shape.side != Side::both && check.max_error == 0) check.max_error = 2e-6 * options.radius;
+  if (check.max_error == 0) check.max_error = border_chords(shape, options.radius);
   return verify::check_shape(polygons, parts, shape_question(shape, options.radius), check, context);
 }
 

@@ -25,6 +25,8 @@ int verify_features(const FeatureVerification& job, Session& session);
 
 /// What a zone of these options has to be.
 verify::ShapeQuestion shape_question(const ShapeOptions& shape, double radius);
+/// How far its border may be off without --max-error: parabolas in that of a one-sided zone are chords (docs/shape.md).
+double border_chords(const ShapeOptions& shape, double radius);
 
 /// A table of checks on standard output.
 void print_checks(Session& session, const std::vector<verify::Check>& checks);

@@ -120,6 +120,8 @@ verify::ShapeQuestion shape_question(const ShapeOptions& shape, double radius) {
   return question;
 }
 
+double border_chords(const ShapeOptions& shape, double radius) { return shape.side != Side::both ? 2e-6 * radius : 0; }
+
 namespace {
 
 void print(Session& session, const verify::ZoneReport& report) {
@@ -204,8 +206,7 @@ int verify_zones(const VerifyOptions& options, Session& session) {
   int status = 0;
   for (const auto& [radius, zone] : *groups) {
     check.radius = radius, check.inner = zone.inner;
-    // Parabolas in the border of a one-sided zone are chords (docs/shape.md).
-    if (shape->side != Side::both && options.max_error.empty()) check.max_error = 2e-6 * radius;
+    if (options.max_error.empty()) check.max_error = border_chords(*shape, radius);
     const bool plain = is_plain(*shape, {radius});
     if (!plain && zone.inner > 0)
       return session.fail("", {ErrorCode::usage, "bands have round caps and joins, both sides and positive radii", "",

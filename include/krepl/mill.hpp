@@ -98,7 +98,7 @@ struct MillReport {
   std::size_t extra_passes = 0;     ///< parts of passes between others, and single places, for the sake of the scallop
   double angle = 0;                 ///< used, degrees
   std::size_t open_places = 0;      ///< with a scallop: places where more is left, and cubes an eighth of it large in which it is not
-                                    ///< proven to be kept; no part is known that has any
+                                    ///< proven to be kept
 };
 
 struct MilledPath {

@@ -5,7 +5,7 @@
 namespace krepl::route {
 namespace {
 
-constexpr double hurry = 1.1;
+constexpr double hurry = 1.1;  // times what is left at least
 
 }  // namespace
 

@@ -99,6 +99,7 @@ class Cells {
   std::optional<Point> common_corner(const Box& box) const;
   bool all_reach(Point p) const;
   bool reaches(Index patch, Point p) const;
+  bool is_within(Index patch, Point p, Real beyond) const;
   bool shows_at(Index patch, Point p) const;
   bool is_wall_of(const Turn& turn, Index label) const;
   std::pair<Index, Index> sides_of_wall(const Turn& turn) const;

@@ -60,8 +60,8 @@ FaceTouch touch_face_carefully(Point3 a, Point3 b, Point3 c, const Ball& ball) {
   const double ex = dx - nx * scale, ey = dy - ny * scale;
   const double of_e = 2 * ball.radius * of_normal / normal + rounding * (std::abs(dx) + std::abs(dy) + ball.radius);
   const double v = ex * vy - ey * vx, w = ux * ey - uy * ex;
-  const double of_v = (of_e + rounding * (std::abs(ex) + std::abs(ey))) * (std::abs(vx) + std::abs(vy));
-  const double of_w = (of_e + rounding * (std::abs(ex) + std::abs(ey))) * (std::abs(ux) + std::abs(uy));
+  const double of_products = of_e + rounding * (std::abs(ex) + std::abs(ey));
+  const double of_v = of_products * (std::abs(vx) + std::abs(vy)), of_w = of_products * (std::abs(ux) + std::abs(uy));
   const double third = v + w - nz, of_third = of_v + of_w + of_nz + rounding * (std::abs(v) + std::abs(w) + nz);
   if (!(w < -of_w || third > of_third || v < -of_v)) return touch_face_quad(a, b, c, ball);
   return {nothing, 0, 0, unsigned(w <= of_w) | unsigned(third >= -of_third) << 1 | unsigned(v <= of_v) << 2};

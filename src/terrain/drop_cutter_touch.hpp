@@ -44,8 +44,8 @@ struct EdgeTouch {
 struct FaceTouch {
   double height = nothing;
   double v = 0, w = 0;  // touched point: a + v (b - a) + w (c - a), all three weights > 0
-  /// Sides beyond which a ball on the face's plane would touch it, or on which, or near which if there is one of these: bit i for the side from corner i to corner
-  /// i + 1. The highest touch of the closed triangle is on the face if there is none, else on one of these sides: the height
+  /// Sides beyond which a ball on the face's plane would touch it, or on which, or near which if there is one of these:
+  /// bit i for the side from corner i to corner i + 1. The highest touch of the closed triangle is on the face if there is none, else on one of these sides: the height
   /// as a function of the touched point is concave, so it grows along the way to where the plane is touched.
   unsigned beyond = 7;
 };

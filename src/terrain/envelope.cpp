@@ -143,12 +143,13 @@ bool Envelope<Real>::is_beyond_wall(Index patch, Point p) const {
                      [&](const Bound& b) { return b.rim && b.sign() * b.value(p, patches_.square_radius()) > 0; });
 }
 
-/// Of two patches of which one ends in a wall at a place, or both in walls on one side, the one further in: true if the other patch
-/// is at least as high there, so that the two have met before. Nothing where walls stand back to back.
+/// Of two patches of which one ends in a wall at a place, or both in walls on one side (`of_a` and `of_b`, or null), the one
+/// further in: true if the other patch is at least as high there, so that the two have met before. Nothing where walls stand
+/// back to back.
 template <class Real>
-std::optional<bool> Envelope<Real>::meet_before_wall(Index a, Index b, Point p) const {
+std::optional<bool> Envelope<Real>::meet_before_wall(Index a, const Bound* of_a, Index b, const Bound* of_b,
+                                                     Point p) const {
   const Real square = patches_.square_radius();
-  const Bound *of_a = rim_at(a, p), *of_b = rim_at(b, p);
   if (of_a != nullptr && of_b != nullptr) {
     const Gradient g = bound_gradient(*of_a, p), h = bound_gradient(*of_b, p);
     if (of_a->sign() * of_b->sign() * (g.x * h.x + g.y * h.y) <= 0) return std::nullopt;
@@ -169,7 +170,8 @@ template <class Real>
 Meeting Envelope<Real>::meeting(Index a, Index b, Point p) const {
   if (a == none || b == none) return Meeting::rim;
   if (patches_.seam(a, b) != nullptr) return Meeting::seam;
-  const bool a_ends = rim_at(a, p) != nullptr, b_ends = rim_at(b, p) != nullptr;
+  const Bound *of_a = rim_at(a, p), *of_b = rim_at(b, p);
+  const bool a_ends = of_a != nullptr, b_ends = of_b != nullptr;
   const Real difference = border_height(a, p) - border_height(b, p);
   if (!a_ends && !b_ends) {
     // Heights that differ by more than they can beside a wall: a patch too thin to show lies between one of the two and
@@ -179,7 +181,7 @@ Meeting Envelope<Real>::meeting(Index a, Index b, Point p) const {
     return absolute(difference) <= slack ? Meeting::valley : Meeting::rim;
   }
   if (is_fine<Real>) {
-    if (const std::optional<bool> met = meet_before_wall(a, b, p)) return *met ? Meeting::valley : Meeting::rim;
+    if (const std::optional<bool> met = meet_before_wall(a, of_a, b, of_b, p)) return *met ? Meeting::valley : Meeting::rim;
   }
   // Just before its end a patch falls steeply: where the other one is higher than its rim, it has met that one before.
   if (a_ends != b_ends && (a_ends ? difference < 0 : difference > 0))

@@ -156,7 +156,7 @@ class Envelope {
   };
   Range aside_range(Index edge, const Box& box, Where where) const;
   Range slope_across(Index edge, const Box& box, Where where) const;
-  std::optional<bool> meet_before_wall(Index a, Index b, Point p) const;
+  std::optional<bool> meet_before_wall(Index a, const Bound* of_a, Index b, const Bound* of_b, Point p) const;
   bool is_beyond_wall(Index patch, Point p) const;
   Index body_at(Point p, std::span<const Index> ends, std::span<const Index> candidates) const;
   bool misses(const Line& line, Real t0, Real t1, Index i) const;

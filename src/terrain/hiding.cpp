@@ -172,7 +172,6 @@ class Envelope<Real>::Cover {
 
   /// True if the patch is nowhere seen.
   bool hides(Index c) {
-    hidden_ = c;
     if (hides(c, envelope_.support(c, frame_))) return true;
     const Patch& f = envelope_.patches_[c];
     return envelope_.is_steep(f) && hides(c, envelope_.plane_of(f, frame_.mid));
@@ -183,7 +182,6 @@ class Envelope<Real>::Cover {
   bool hides_within_ends(Index c) {
     const Patch& f = envelope_.patches_[c];
     if (f.kind == FeatureKind::face) return false;
-    hidden_ = c;
     for (const Bound& b : envelope_.patches_.bounds(c)) {
       if (b.type != BoundType::cone || !(b.sign() * b.c > 0)) continue;
       const Gradient slope{-b.nx / b.c, -b.ny / b.c};
@@ -197,6 +195,7 @@ class Envelope<Real>::Cover {
  private:
   /// The same, if it lies below the given plane.
   bool hides(Index c, const Plane& plane) {
+    hidden_ = c;
     noise_ = envelope_.noise_ * (1 + absolute(plane.gradient.x) + absolute(plane.gradient.y));
     const std::array<Real, 4> t = plane.at_corners(frame_);
     const Real hx = plane.gradient.x * frame_.hx, hy = plane.gradient.y * frame_.hy;

@@ -72,14 +72,17 @@ bool Cells<Real>::all_reach(Point p) const {
 
 template <class Real>
 bool Cells<Real>::reaches(Index patch, Point p) const {
-  if (has_corner(patch, p)) return true;
+  return has_corner(patch, p) || is_within(patch, p, 4 * envelope_.tolerance());
+}
+
+/// True if p is beyond no side of the patch by more than that: less than nothing is well inside.
+template <class Real>
+bool Cells<Real>::is_within(Index patch, Point p, Real beyond) const {
   const PatchSet<Real>& patches = envelope_.patches();
-  for (const Bound& b : patches.bounds(patch)) {
-    const Gradient g = envelope_.bound_gradient(b, p);
-    const Real value = b.value(p, patches.square_radius()), slack = 4 * envelope_.tolerance() * (1 + size(g));
-    if (b.negative ? value > slack : value < -slack) return false;
-  }
-  return true;
+  const std::span<const Bound> sides = patches.bounds(patch);
+  return std::none_of(sides.begin(), sides.end(), [&](const Bound& b) {
+    return b.sign() * b.value(p, patches.square_radius()) > beyond * (1 + size(envelope_.bound_gradient(b, p)));
+  });
 }
 
 /// True if the patch reaches p, and no patch among the labels is higher there.
@@ -169,15 +172,8 @@ bool Cells<Real>::hides_foot_of_seam(Point corner) const {
 template <class Real>
 bool Cells<Real>::hides_label(Point p) const {
   const PatchSet<Real>& patches = envelope_.patches();
-  const auto holds = [&](Index patch) {
-    const std::span<const Bound> sides = patches.bounds(patch);
-    return std::all_of(sides.begin(), sides.end(), [&](const Bound& b) {
-      const Real slack = 4 * envelope_.tolerance() * (1 + size(envelope_.bound_gradient(b, p)));
-      return b.sign() * b.value(p, patches.square_radius()) < -slack;
-    });
-  };
   for (const Turn& t : turns_) {
-    if (t.after == none || !holds(t.after)) continue;
+    if (t.after == none || !is_within(t.after, p, -4 * envelope_.tolerance())) continue;
     const Real height = patches.extended_height(t.after, p);
     const Gradient g = patches.gradient(t.after, p);
     for (const Turn& other : turns_) {

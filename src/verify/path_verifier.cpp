@@ -119,7 +119,8 @@ Result<PathReport> check_path(const ToolPath& path, const Terrain& part, const P
   };
   report.checks.push_back(check(false).check("cutting moves stay out", report.tolerance));
   report.checks.push_back(check(true).check("rapid moves stay out", report.tolerance));
-  report.checks.push_back(stray(path, solid, farthest * report.scale).check("moves stay near the part", farthest * report.scale));
+  const double near = farthest * report.scale;
+  report.checks.push_back(stray(path, solid, near).check("moves stay near the part", near));
   if (context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
   return report;
 }
