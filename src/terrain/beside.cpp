@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "terrain/box_frame.hpp"
+#include "terrain/clip_polygon.hpp"
 
 // Features that hide others by the way the two lie to each other: side by side, above one another.
 namespace krepl::terrain {
@@ -41,10 +42,11 @@ bool Envelope<Real>::shows_first(Index i, Index other, const BoxFrame& box) cons
 /// Two edges that run beside or above each other, as seen from above. With u(b) = sqrt(R^2 - b^2) for the distance b
 /// from one axis and b + e from the other, and s between b / u(b) at the two, their heights differ by
 ///   level + (q_k - q_c) u(b) + q_c e s,
-/// where level and e are linear in the place. `least_up`: of u; what shows nearer to the wall does not matter.
-/// `allowed`: by how much the lower one may be higher.
+/// where level and e are linear in the place. `least_up`, `most_up`: of u; what shows nearer to the wall does not matter,
+/// nor what is farther from it. `allowed`: by how much the lower one may be higher.
 template <class Real>
-bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up, Real allowed) const {
+bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up, Real allowed,
+                                   Real most_up) const {
   const Patch &c = patches_[lower], &k = patches_[upper];
   if (c.kind != FeatureKind::edge || k.kind != FeatureKind::edge) return false;
   if (absolute(c.gx * k.gy - c.gy * k.gx) > 0x1p-8) return false;
@@ -58,9 +60,6 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
     widest = std::max(widest, absolute(apart[i]));
   }
   if (widest > farthest) return false;
-  for (const Bound& b : patches_.bounds(upper)) {
-    if (b.type == BoundType::cone && !is_within(b, frame, least_up)) return false;
-  }
   const Real beta = k.aside(frame.mid), square = patches_.square_radius();
   const Real spread = absolute(k.gx) * frame.hy + absolute(k.gy) * frame.hx;
   const Real near = std::max(Real(0), absolute(beta) - spread), far = absolute(beta) + spread;
@@ -68,7 +67,7 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
                 square_root(std::max(Real(0), square - near * near))};
   // Where the lower one is nearer to its wall all over the box, it falls the faster the nearer: the least slope is enough.
   const bool inwards = std::all_of(apart, apart + 4, [&](Real e) { return beta > 0 ? e >= 0 : e <= 0; });
-  Real slope[2] = {0, 0};
+  Real slope[2] = {0, 0}, slack = 0;  // slack: by how much u may differ between the two
   // However little the lower one's wall is beyond the upper one's, what is beyond may be tall.
   if (!is_fine<Real> && !inwards && widest > noise_ && widest <= tolerance_ / 4 && far + widest >= patches_.radius())
     return false;
@@ -77,34 +76,66 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
     if (std::max(-low, high) < patches_.radius()) {
       slope[0] = low / square_root(square - low * low);
       slope[1] = high / square_root(square - high * high);
+      slack = widest * std::max(absolute(slope[0]), absolute(slope[1]));
     } else if (!inwards || absolute(beta) <= spread) {
       return false;
     } else {
       slope[0] = slope[1] = (beta > 0 ? near : -near) / square_root(square - near * near);
+      slack = square_root(2 * patches_.radius() * widest);
     }
   }
   // A ball touches the lower edge between its ends: that tells how high it can be above the axis there.
-  Real lowest = least_up;
+  Real lowest = least_up, first = 0, last = 0;
+  const auto along = [&](Point p) { return (p.x - c.at.x) * c.gx + (p.y - c.at.y) * c.gy; };
+  const Real lean = c.m * c.flat;
   if (c.m != 0) {
-    const auto along = [&](Point p) { return (p.x - c.at.x) * c.gx + (p.y - c.at.y) * c.gy; };
     const Real a[4] = {along(corner[0]), along(corner[1]), along(corner[2]), along(corner[3])};
-    const Real first = std::min({a[0], a[1], a[2], a[3]}), last = std::max({a[0], a[1], a[2], a[3]});
-    const Real slack = widest * std::max(absolute(slope[0]), absolute(slope[1])), scale = absolute(c.m * c.flat);
-    lowest = std::max(lowest, (c.m > 0 ? -last : first - c.length) / scale - slack);
-    for (Real& u : up) u = std::min(u, (c.m > 0 ? c.length - first : last) / scale + slack);
+    first = std::min({a[0], a[1], a[2], a[3]}), last = std::max({a[0], a[1], a[2], a[3]});
+    lowest = std::max(lowest, (c.m > 0 ? -last : first - c.length) / absolute(lean) - slack);
+    for (Real& u : up) u = std::min(u, (c.m > 0 ? c.length - first : last) / absolute(lean) + slack);
   }
-  for (Real& u : up) u = std::max(u, lowest);
+  for (Real& u : up) u = std::max(std::min(u, most_up), lowest);
+  for (const Bound& b : patches_.bounds(upper)) {
+    if (b.type != BoundType::cone) continue;
+    // The same of the sphere about that end, which is lower than the cylinder.
+    Real farthest_along = 0;
+    for (const Point p : corner)
+      farthest_along = std::max(farthest_along, absolute((p.x - b.at.x) * k.gx + (p.y - b.at.y) * k.gy));
+    const Real on_sphere = square_root(std::max(Real(0), up[0] * up[0] - farthest_along * farthest_along));
+    if (!is_within(b, frame, std::max(least_up, on_sphere), up[1])) return false;
+  }
+  const auto is_enough = [&](Real over) {
+    return over > noise_ || (allowed > 0 && over >= -allowed) || (over >= -noise_ && precedes(upper, lower));
+  };
+  const Real rise = k.q - c.q;
+  bool hidden = true;
+  Real level_off = endless, aside_off = endless;  // level but for what it grows by along the lower edge, and the last term
+  const Real growth = k.m * (k.gx * c.gx + k.gy * c.gy) - c.m;
   for (int i = 0; i < 4; ++i) {
     const Real level = axis_height(upper, corner[i]) - axis_height(lower, corner[i]);
     for (const Real s : slope) {
-      for (const Real u : up) {
-        const Real over = level + (k.q - c.q) * u + c.q * apart[i] * s;
-        if (over > noise_ || (allowed > 0 && over >= -allowed)) continue;
-        if (!(over >= -noise_ && precedes(upper, lower))) return false;
-      }
+      const Real aside = c.q * apart[i] * s;
+      for (const Real u : up) hidden = hidden && is_enough(level + rise * u + aside);
+      aside_off = std::min(aside_off, aside);
     }
+    level_off = std::min(level_off, level - growth * along(corner[i]));
   }
-  return true;
+  if (hidden || c.m == 0) return hidden;
+  // Near a wall both grow with the distance from a vertex: what is touched tells how they do so together.
+  struct Place {
+    Real along, up;
+  };
+  std::vector<Place> part{{first, up[0]}, {last, up[0]}, {last, up[1]}, {first, up[1]}};
+  const Real beyond = absolute(lean) * slack;
+  for (const Real sign : {Real(1), Real(-1)}) {
+    clip_polygon(part, [&](const Place& p) {
+      const Real touched = p.along + lean * p.up;
+      return (sign > 0 ? touched - c.length : -touched) - beyond;
+    });
+  }
+  return std::all_of(part.begin(), part.end(), [&](const Place& p) {
+    return is_enough(level_off + growth * p.along + rise * p.up + aside_off);
+  });
 }
 
 /// True if no point of the lower patch lies above the upper one's plane, however tangent to it: with N the plane's normal and

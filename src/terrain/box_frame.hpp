@@ -20,10 +20,10 @@ inline std::array<Real, 4> Envelope<Real>::Plane::at_corners(const BoxFrame& box
 }
 
 /// The least value of a bound's function over a box (sign = 1), or the greatest one with its sign changed (sign = -1), a bit
-/// less for rounding. `least_up`: of the height over the rim that a cone's value depends on.
+/// less for rounding. `least_up`, `most_up`: of the height over the rim that a cone's value depends on.
 template <class Real>
 template <int sign>
-inline Real Envelope<Real>::extreme(const Bound& b, const BoxFrame& f, Real least_up) const {
+inline Real Envelope<Real>::extreme(const Bound& b, const BoxFrame& f, Real least_up, Real most_up) const {
   const Real dx = f.mid.x - b.at.x, dy = f.mid.y - b.at.y;
   const Real slack = Precision<Real>::rounding * (absolute(dx) + absolute(dy) + f.hx + f.hy);
   if (b.type == BoundType::line) {
@@ -34,14 +34,15 @@ inline Real Envelope<Real>::extreme(const Bound& b, const BoxFrame& f, Real leas
   const Real far_x = absolute(dx) + f.hx, far_y = absolute(dy) + f.hy;
   const Real near = near_x * near_x + near_y * near_y, far = far_x * far_x + far_y * far_y;
   if (b.type == BoundType::disc) return (sign > 0 ? near - square : square - far) - 2 * slack * (far_x + far_y);
-  const Real lift = sign * b.c, up = std::max(least_up, square_root(std::max(Real(0), square - (lift >= 0 ? far : near))));
+  const Real lift = sign * b.c;
+  const Real up = std::max(least_up, std::min(most_up, square_root(std::max(Real(0), square - (lift >= 0 ? far : near)))));
   return sign * (dx * b.nx + dy * b.ny) - (absolute(b.nx) * f.hx + absolute(b.ny) * f.hy + slack) + lift * up;
 }
 
 /// True if the patch's side of the bound is all of the box.
 template <class Real>
-inline bool Envelope<Real>::is_within(const Bound& b, const BoxFrame& f, Real least_up) const {
-  return b.negative ? extreme<-1>(b, f, least_up) > 0 : extreme<1>(b, f, least_up) >= 0;
+inline bool Envelope<Real>::is_within(const Bound& b, const BoxFrame& f, Real least_up, Real most_up) const {
+  return b.negative ? extreme<-1>(b, f, least_up, most_up) > 0 : extreme<1>(b, f, least_up, most_up) >= 0;
 }
 
 }  // namespace krepl::terrain

@@ -384,6 +384,10 @@ bool Cells<Real>::settle_arc(const Box& box, bool smallest) {
     add_vertex(*corner);
     return true;
   }
+  if (const std::optional<Point> level = change_of_upper_wall(a, b, box)) {
+    add_vertex(*level);
+    return true;
+  }
   if (!smallest && !(curve_is_simple(a, box) && stays_wall(a, b.at, box) && stays_valley(a, b.at, box))) return false;
   if (const std::optional<Point> p = crossing_of_edges(a, box))
     add_vertex(*p);
@@ -398,7 +402,7 @@ template <class Real>
 bool Cells<Real>::is_wall_of(const Turn& turn, Index label) const {
   if (turn.meeting != Meeting::rim || label == none || (turn.before != label && turn.after != label)) return false;
   const Index other = turn.before == label ? turn.after : turn.before;
-  if (other == none || envelope_.border_height(label, turn.at) > envelope_.border_height(other, turn.at)) return true;
+  if (other == none || envelope_.upper_at_wall(other, label, turn.at) == label) return true;
   if (envelope_.rim_at(label, turn.at) == nullptr || envelope_.rim_at(other, turn.at) == nullptr) return false;
   const Real apart = envelope_.rim_height(label, turn.at) - envelope_.rim_height(other, turn.at);
   return absolute(apart) <= envelope_.tolerance();
@@ -421,9 +425,18 @@ bool Cells<Real>::labels_differ() const {
   return true;
 }
 
+/// True if one patch, between two walls that touch in the box, shows on both sides of that place, and so near to it that what
+/// is between the walls is not told apart.
+template <class Real>
+bool Cells<Real>::is_pinched(const Box& box) const {
+  if (turns_.size() != 4 || box.larger_side() > reach_of_touch()) return false;
+  const bool once[2] = {turns_[0].after != turns_[2].after, turns_[1].after != turns_[3].after};
+  return once[0] != once[1] && touch_of_walls(box);
+}
+
 template <class Real>
 bool Cells<Real>::settle_star(const Box& box, bool smallest) {
-  if (!smallest && !labels_differ()) return false;
+  if (!smallest && !labels_differ() && !is_pinched(box)) return false;
   const std::optional<Point> found = star_point(box);
   if (!found && !smallest) return false;
   if (found && finer_ != nullptr && is_steep()) return false;
@@ -524,6 +537,39 @@ std::optional<PointOf<Real>> Cells<Real>::corner_beside(Point p) const {
   return nearest;
 }
 
+/// Where two edges' walls along one straight line are equally high. Nothing where they are so all along.
+template <class Real>
+std::optional<PointOf<Real>> Cells<Real>::level_along(const Bound& wall, Index first, Index second, Point near) const {
+  const Gradient g = envelope_.bound_gradient(wall, near), r = envelope_.rim_gradient(first),
+                 s = envelope_.rim_gradient(second);
+  const Real size_of_g = size(g), off = wall.value(near, envelope_.patches().square_radius()) / size_of_g;
+  const Gradient across{g.x / size_of_g, g.y / size_of_g}, along{-across.y, across.x};
+  const Point foot{near.x - off * across.x, near.y - off * across.y};
+  const Real rise = (r.x - s.x) * along.x + (r.y - s.y) * along.y;
+  if (absolute(rise) < 0x1p-16) return std::nullopt;
+  const Real step = (envelope_.axis_height(first, foot) - envelope_.axis_height(second, foot)) / rise;
+  return Point{foot.x - step * along.x, foot.y - step * along.y};
+}
+
+/// Where two edges' walls stand back to back along a line in the box, and take turns in being the higher one.
+template <class Real>
+std::optional<PointOf<Real>> Cells<Real>::change_of_upper_wall(const Turn& s, const Turn& t, const Box& box) const {
+  if (s.meeting != Meeting::rim || s.before == none || s.after == none) return std::nullopt;
+  const auto [upper, lower] = sides_of_wall(s);
+  const PatchSet<Real>& patches = envelope_.patches();
+  if (sides_of_wall(t).first != lower || patches[upper].kind != Terrain::FeatureKind::edge ||
+      patches[lower].kind != Terrain::FeatureKind::edge)
+    return std::nullopt;
+  for (const Index l : {upper, lower}) {
+    for (const Point p : {s.at, t.at}) {
+      const Bound* wall = envelope_.rim_at(l, p);
+      if (wall == nullptr || wall->type != BoundType::line) return std::nullopt;
+    }
+  }
+  const std::optional<Point> p = level_along(*envelope_.rim_at(upper, s.at), upper, lower, s.at);
+  return p && box.contains(*p) ? p : std::nullopt;
+}
+
 /// Where two walls in one line that meet in a valley are equally high, if that is close to p: the valley is tangent to
 /// them.
 template <class Real>
@@ -542,17 +588,9 @@ std::optional<PointOf<Real>> Cells<Real>::level_of_walls(Point p) const {
       continue;
     const Bound *a = wall_of(t.before), *b = wall_of(t.after);
     if (a == nullptr || b == nullptr || a->type != BoundType::line || b->type != BoundType::line) continue;
-    const Gradient g = envelope_.bound_gradient(*a, p), r = envelope_.rim_gradient(t.before),
-                   s = envelope_.rim_gradient(t.after);
-    const Real size_of_g = size(g), off = a->value(p, patches.square_radius()) / size_of_g;
-    const Gradient across{g.x / size_of_g, g.y / size_of_g}, along{-across.y, across.x};
-    const Point foot{p.x - off * across.x, p.y - off * across.y};
-    const Real rise = (r.x - s.x) * along.x + (r.y - s.y) * along.y;
-    if (absolute(rise) < 0x1p-16) continue;
-    const Real step = (envelope_.axis_height(t.before, foot) - envelope_.axis_height(t.after, foot)) / rise;
-    const Point q{foot.x - step * along.x, foot.y - step * along.y};
-    if (!(absolute(step) < least && absolute(off) < least)) continue;
-    const Real apart = b->value(q, patches.square_radius()) / size(envelope_.bound_gradient(*b, q));
+    const std::optional<Point> q = level_along(*a, t.before, t.after, p);
+    if (!q || norm(q->x - p.x, q->y - p.y) >= least) continue;
+    const Real apart = b->value(*q, patches.square_radius()) / size(envelope_.bound_gradient(*b, *q));
     if (absolute(apart) <= 4 * envelope_.tolerance()) return q;
   }
   return std::nullopt;

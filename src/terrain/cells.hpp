@@ -84,6 +84,7 @@ class Cells {
   bool are_apart(const Strand& a, const Strand& b, std::optional<Point> vertex, const Box& box) const;
   bool is_beside(const Strand& strand, Point vertex) const;
   bool labels_differ() const;
+  bool is_pinched(const Box& box) const;
   bool settle_star(const Box& box, bool smallest);
   std::optional<Point> star_point(const Box& box) const;
   std::optional<Point> common_point(const Box& box) const;
@@ -91,12 +92,15 @@ class Cells {
   bool is_steep() const;
   Point least_gap(const Box& box) const;
   std::optional<Point> corner_beside(Point p) const;
+  std::optional<Point> level_along(const Bound& wall, Index first, Index second, Point near) const;
+  std::optional<Point> change_of_upper_wall(const Turn& s, const Turn& t, const Box& box) const;
   std::optional<Point> level_of_walls(Point p) const;
   std::optional<Point> touch_of_balls(Index a, Index b) const;
   std::optional<Point> touch_of_balls_beside(Point p) const;
   Real reach_of_touch() const;
   Point known_beside(Point p) const;
   std::optional<Point> common_corner(const Box& box) const;
+  std::optional<Point> touch_of_walls(const Box& box) const;
   bool all_reach(Point p) const;
   bool reaches(Index patch, Point p) const;
   bool is_within(Index patch, Point p, Real beyond) const;

@@ -70,17 +70,45 @@ Offset<Real> offset(const Contact<Real>& c, double radius, Vector<Real> p) {
   return {l - radius, l > 0 ? (1 / l) * away : Vector<Real>{0, 0, 1}};
 }
 
+/// Of what the ball touches, straight above or below a place; how fast that changes at most.
+struct Height {
+  double z, slope;
+};
+Height height(const Contact<double>& c, double radius, Point3 p) {
+  const Vector3 v = Vector3(p) - c.at;
+  if (c.kind == FeatureKind::face) {
+    return {c.at.z + (radius - c.direction.x * v.x - c.direction.y * v.y) / c.direction.z,
+            std::hypot(c.direction.x, c.direction.y) / c.direction.z};
+  }
+  if (c.kind == FeatureKind::vertex) {
+    const double up = std::sqrt(std::max(0.0, radius * radius - v.x * v.x - v.y * v.y));
+    return {c.at.z + up, radius / up};
+  }
+  const double flat = std::hypot(c.direction.x, c.direction.y), m = c.direction.z / flat;
+  const double along = (v.x * c.direction.x + v.y * c.direction.y) / flat;
+  const double aside = (v.y * c.direction.x - v.x * c.direction.y) / flat;
+  const double up = std::sqrt(std::max(0.0, radius * radius - aside * aside));
+  return {c.at.z + m * along + up / flat, radius / up / flat};
+}
+
 /// Newton's method towards the curve where both distances are R, by the shortest way: along the mean of the two
 /// normals, and along their difference as far as rounding lets that be told and no farther than `reach`. Where the
-/// surfaces all but touch along a stretch, the curve is known across it no better than that. `sine`, if wanted: of the
-/// angle between the two surfaces there.
+/// surfaces all but touch along a stretch, the curve is known across it no better than that. Between two walls the mean of
+/// the normals is nothing: from there the way begins on the higher surface. `sine`, if wanted: of the angle between the two
+/// surfaces there.
 template <class Real>
 Point3 project_to_valley(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 near, double reach,
                          double* sine = nullptr) {
   const auto a = contact_of<Real>(terrain, edge.feature[0]), b = contact_of<Real>(terrain, edge.feature[1]);
   const Real precision = 2 * std::numeric_limits<Real>::epsilon();
+  Point3 start = near;
+  const Vector<Real> normals = offset(a, radius, Vector<Real>(near)).gradient + offset(b, radius, Vector<Real>(near)).gradient;
+  if (dot(normals, normals) < Real(0.25)) {
+    for (const Surface::Index f : edge.feature)
+      start.z = std::max(start.z, height(contact_of(terrain, f), radius, near).z);
+  }
   const auto solve = [&](bool aside) {
-    Vector<Real> p(near);
+    Vector<Real> p(start);
     for (int i = 0; i < 20; ++i) {
       const Offset<Real> f = offset(a, radius, p), g = offset(b, radius, p);
       const Vector<Real> mean = f.gradient + g.gradient, apart = f.gradient - g.gradient;
@@ -195,32 +223,10 @@ bool is_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge
 }
 
 double height_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 p) {
-  struct Height {
-    double z, slope;
-  };
   std::array<Height, 2> found;
   std::size_t count = 0;
   for (const Surface::Index feature : edge.feature) {
-    if (feature == Surface::none) continue;
-    const Contact<double> c = contact_of(terrain, feature);
-    const Vector3 v = Vector3(p) - c.at;
-    double h, slope;
-    if (c.kind == FeatureKind::face) {
-      h = c.at.z + (radius - c.direction.x * v.x - c.direction.y * v.y) / c.direction.z;
-      slope = std::hypot(c.direction.x, c.direction.y) / c.direction.z;
-    } else if (c.kind == FeatureKind::vertex) {
-      const double up = std::sqrt(std::max(0.0, radius * radius - v.x * v.x - v.y * v.y));
-      h = c.at.z + up;
-      slope = radius / up;
-    } else {
-      const double flat = std::hypot(c.direction.x, c.direction.y), m = c.direction.z / flat;
-      const double along = (v.x * c.direction.x + v.y * c.direction.y) / flat;
-      const double aside = (v.y * c.direction.x - v.x * c.direction.y) / flat;
-      const double up = std::sqrt(std::max(0.0, radius * radius - aside * aside));
-      h = c.at.z + m * along + up / flat;
-      slope = radius / up / flat;
-    }
-    found[count++] = {h, slope};
+    if (feature != Surface::none) found[count++] = height(contact_of(terrain, feature), radius, p);
   }
   if (count == 0) return p.z;
   if (count == 1) return found[0].z;

@@ -192,6 +192,14 @@ Meeting Envelope<Real>::meeting(Index a, Index b, Point p) const {
 }
 
 template <class Real>
+Index Envelope<Real>::upper_at_wall(Index a, Index b, Point p) const {
+  const Real rise = border_height(b, p) - border_height(a, p);
+  const bool a_ends = rim_at(a, p) != nullptr, b_ends = rim_at(b, p) != nullptr;
+  const bool b_is_upper = a_ends != b_ends && absolute(rise) <= thickness_ ? b_ends : rise > 0;
+  return b_is_upper ? b : a;
+}
+
+template <class Real>
 GradientRangeOf<Real> Envelope<Real>::sphere_gradient(Point at, const Box& box, Real factor) const {
   const Range dx{box.low.x - at.x, box.high.x - at.x}, dy{box.low.y - at.y, box.high.y - at.y};
   const Real near_x = dx.low > 0    ? dx.low

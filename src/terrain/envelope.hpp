@@ -131,6 +131,9 @@ class Envelope {
   /// Height at p, a place on the border of the patch's domain: at a rim that of the rim.
   Real border_height(Index patch, Point p) const;
   Meeting meeting(Index a, Index b, Point p) const;
+  /// Of the patches on the two sides of a wall the upper one: where both are equally high but for what is too low to show, the
+  /// one that ends there, else the higher one, else the first.
+  Index upper_at_wall(Index a, Index b, Point p) const;
   /// True if both are faces, equally high all over the box but for rounding.
   bool are_coplanar(Index a, Index b, const Box& box) const;
   Gradient gradient_across(Index a, Index b, Meeting how, Point p) const;
@@ -138,6 +141,7 @@ class Envelope {
  private:
   template <class Other>
   friend class Envelope;
+  static constexpr double endless = std::numeric_limits<double>::infinity();
   Index winner(Point p, std::span<const Index> candidates, bool finely) const;
   struct Line;
   struct BoxFrame;
@@ -173,15 +177,16 @@ class Envelope {
   Plane support(Index patch, const BoxFrame& box) const;
   Plane support_of_steep(Index patch, const Plane& whole, const BoxFrame& box) const;
   template <int sign>
-  Real extreme(const Bound& bound, const BoxFrame& box, Real least_up = 0) const;
-  bool is_within(const Bound& bound, const BoxFrame& box, Real least_up = 0) const;
+  Real extreme(const Bound& bound, const BoxFrame& box, Real least_up = 0, Real most_up = endless) const;
+  bool is_within(const Bound& bound, const BoxFrame& box, Real least_up = 0, Real most_up = endless) const;
   std::optional<Wall> wall_through(Index patch, const BoxFrame& box) const;
   bool is_above(Index upper, const Wall& wall, Index lower, const BoxFrame& frame) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
   bool precedes(Index a, Index b) const;
   bool shows_first(Index patch, Index other, const BoxFrame& box) const;
   bool lies_in(Index lower, Index upper) const;
-  bool hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up = 0, Real allowed = 0) const;
+  bool hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up = 0, Real allowed = 0,
+                     Real most_up = endless) const;
   bool hidden_below_face(Index lower, Index upper, const BoxFrame& frame) const;
   struct Vector {
     Real x, y, z;
@@ -197,6 +202,7 @@ class Envelope {
   Real inset_of(Index body, const Wall& wall, const Box& box, const std::array<Real, 4>& plane) const;
   bool hidden_beyond(Index patch, const Wall& wall, Real inset, std::span<const Index> others,
                      const BoxFrame& frame) const;
+  bool lies_inside(Index patch, const Bound& wall, Real inset, const Box& box) const;
   bool beside_beyond(Index patch, const Bound& wall, Real inset, std::span<const Index> others, const Box& box) const;
   bool back_to_back(const Bound& a, const Bound& b, const Box& box, Real inset) const;
   bool domain_covers(Index patch, const BoxFrame& box) const;

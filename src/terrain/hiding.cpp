@@ -428,7 +428,8 @@ bool Envelope<Real>::hidden_within_tolerance(Index i, std::span<const Index> upp
     if (!end) continue;
     inset[walls] = inset_of(uppers[u], *end, box, t);
     if (!is_finite(inset[walls])) continue;
-    if (is_fine<Real> && hidden_beyond(i, *end, inset[walls], uppers, frame)) return true;
+    if (lies_inside(i, end->outline, inset[walls], box)) return true;
+    if (hidden_beyond(i, *end, inset[walls], uppers, frame)) return true;
     if (beside_beyond(i, end->outline, inset[walls], uppers, box)) return true;
     for (std::size_t w = 0; w < walls; ++w) {
       if (back_to_back(wall[w], end->outline, box, inset[w] + inset[walls])) return true;

@@ -137,10 +137,13 @@ void Envelope<Real>::section(const Line& line, Real t0, Index l0, Real t1, Index
     stack_.resize(begin);
     return;
   }
-  if (l0 == l1 && l0 == none) {
-    const auto keeps_out = [&](Index c) { return misses(line, t0, t1, c); };
+  if (l0 == l1) {
+    const auto keeps_out = [&](Index c) { return c != l0 && misses(line, t0, t1, c); };
     stack_.erase(std::remove_if(stack_.begin() + std::ptrdiff_t(begin), stack_.end(), keeps_out), stack_.end());
-    if (stack_.size() == begin) return;
+    if (!has_others(begin)) {
+      stack_.resize(begin);
+      return;
+    }
   }
   if (l0 != l1 && (tiny || (!others && single_crossing(line, t0, l0, t1, l1)))) {
     Meeting how = Meeting::rim;

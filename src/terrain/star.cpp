@@ -139,6 +139,34 @@ std::optional<PointOf<Real>> Cells<Real>::common_corner(const Box& box) const {
   return found;
 }
 
+/// Where a ball's wall in the box touches an edge's straight one, or runs below or above it where that ends: the vertex lies in
+/// the edge's vertical plane, or at twice the radius from it.
+template <class Real>
+std::optional<PointOf<Real>> Cells<Real>::touch_of_walls(const Box& box) const {
+  const PatchSet<Real>& patches = envelope_.patches();
+  const Real radius = patches.radius(), rounding = 0x1p-50 * radius;
+  for (const Turn& t : turns_) {
+    if (t.meeting != Meeting::rim) continue;
+    const Patch& ball = patches[sides_of_wall(t).first];
+    if (ball.kind != Terrain::FeatureKind::vertex) continue;
+    for (const Turn& other : turns_) {
+      if (other.after == none || patches[other.after].kind != Terrain::FeatureKind::edge) continue;
+      const Patch& edge = patches[other.after];
+      const Real aside = edge.aside(ball.at);
+      const auto side = [&](Real s) { return Point{ball.at.x - s * edge.gy, ball.at.y + s * edge.gx}; };
+      if (absolute(absolute(aside) - 2 * radius) <= rounding) {
+        const Point p = side(aside > 0 ? -radius : radius);
+        if (box.contains(p)) return p;
+      }
+      if (absolute(aside) > rounding) continue;
+      for (const Real s : {radius, -radius}) {
+        if (box.contains(side(s))) return side(s);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 /// True if a patch that meets the corner rises above a straight seam there which shows farther on: the valley beside it
 /// crosses the seam once more then. Above the seam the other patch's height is concave, so that it does so at its foot
 /// or not at all.
@@ -238,6 +266,10 @@ std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
   };
 
   if (const std::optional<Point> end = end_of_thin_bend(box)) return end;
+  if (n == 3) {
+    const std::optional<Point> level = level_of_walls(box.middle());
+    if (level && box.contains(*level)) return level;
+  }
   // A corner that two labels share, or two sides of one, is known beforehand; near the rim the curves there are
   // tangent.
   const auto passes = [&](std::size_t k, Point corner) {
@@ -251,6 +283,12 @@ std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
   };
   std::optional<Point> corner = common_corner(box);
   if (corner && n == 3 && is_covered(*corner)) corner.reset();
+  if (!corner) {
+    corner = touch_of_walls(box);
+    for (std::size_t k = 0; corner && k < n; ++k) {
+      if (!passes(k, *corner)) corner.reset();
+    }
+  }
   if (corner) {
     if (!all_reach(*corner)) return std::nullopt;
     for (std::size_t k = 0; k < n; ++k) {
@@ -285,12 +323,16 @@ std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
   if (corner) {
     const std::optional<Point> touch = touch_of_balls_beside(*corner);
     const Real near = touch ? reach_of_touch() : 16 * tolerance;
-    // Two curves in a row that bound one patch, and meet elsewhere in the box.
+    // Two curves in a row that bound one patch, and meet elsewhere in the box: where they are tangent at the corner not so near
+    // to it that they are not told apart.
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t j = (i + 1) % n;
+      const Gradient g = gradient(anywhere[i], *corner), h = gradient(anywhere[j], *corner);
+      const bool tangent = absolute(g.x * h.y - g.y * h.x) <= 0x1p-10 * size(g) * size(h);
+      const Real apart = tangent ? std::max(near, reach_of_touch()) : near;
       for (const Point start : {middle, turns_[i].at, turns_[j].at}) {
         const std::optional<Point> p = solve(anywhere[i], anywhere[j], start);
-        if (!p || norm(p->x - corner->x, p->y - corner->y) <= near) continue;
+        if (!p || norm(p->x - corner->x, p->y - corner->y) <= apart) continue;
         if (shows_at(turns_[i].before, *p) && shows_at(turns_[i].after, *p) && shows_at(turns_[j].after, *p))
           return std::nullopt;
       }

@@ -146,9 +146,7 @@ class ChainWriter {
     Index other = label[0] == none ? label[0] : label[1];
     if (crossing.meeting == Meeting::rim) {
       const Point p = cells_.place(line, crossing);
-      if (other != none && envelope_.border_height(other, p) > envelope_.border_height(upper_, p)) {
-        std::swap(upper_, other);
-      }
+      if (other != none && envelope_.upper_at_wall(upper_, other, p) == other) std::swap(upper_, other);
       chain.lower = label[left] == upper_ ? 1 : 0;
       other = none;
     }

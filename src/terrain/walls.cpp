@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "terrain/box_frame.hpp"
+#include "terrain/clip_polygon.hpp"
 
 // Where bodies end in walls, and what that hides.
 namespace krepl::terrain {
@@ -128,7 +129,7 @@ std::optional<WallBesideOf<Real>> Envelope<Real>::wall_beside(Index upper, Index
 }
 
 /// True if what shows of a patch beyond the wall of a body that hides the rest is below another body: it lies in a
-/// strip along the patch's own wall, above which heights rise like square roots.
+/// strip along the patch's own wall, above which heights rise like square roots. Or below an edge beside its own.
 template <class Real>
 bool Envelope<Real>::hidden_beyond(Index i, const Wall& wall, Real inset, std::span<const Index> others,
                                    const BoxFrame& frame) const {
@@ -142,11 +143,38 @@ bool Envelope<Real>::hidden_beyond(Index i, const Wall& wall, Real inset, std::s
     width += 4 * (frame.hx * frame.hx + frame.hy * frame.hy) / (2 * patches_.radius());
   const Real up = square_root(2 * patches_.radius() * width);
   return std::any_of(others.begin(), others.end(), [&](Index other) {
-    return std::all_of(corner.begin(), corner.end(), [&](Point p) {
+    if (other != i && hidden_beside(i, other, frame, 0, 0, up)) return true;
+    return is_fine<Real> && std::all_of(corner.begin(), corner.end(), [&](Point p) {
       const Real strip = f.kind == FeatureKind::edge ? axis_height(i, p) + f.q * up : f.z + up;
       return patches_.body_height(other, p) - noise_ > strip;
     });
   });
+}
+
+/// True if the part of a patch's domain within the box lies on the inner side of a wall moved inwards by `inset`, but for less
+/// than is told apart. Curved sides of the domain count as straight ones a bit further out, and not at all where the box
+/// reaches beyond the sphere that they are on; how far a place is outside is greatest at a corner then.
+template <class Real>
+bool Envelope<Real>::lies_inside(Index i, const Bound& wall, Real inset, const Box& box) const {
+  const std::array<Point, 4> corner = box.corners();
+  const Point mid = box.middle();
+  std::vector<Point> part(corner.begin(), corner.end());
+  for (const Bound& side : patches_.bounds(i)) {
+    if (side.type == BoundType::disc || part.empty()) continue;
+    const auto is_on_sphere = [&](Point p) {
+      const Real dx = p.x - side.at.x, dy = p.y - side.at.y, square = patches_.square_radius();
+      return square - (dx * dx + dy * dy) > least_square * square;
+    };
+    if (side.type == BoundType::cone && side.c != 0 && !std::all_of(corner.begin(), corner.end(), is_on_sphere)) continue;
+    const auto value = [&](Point p) { return side.sign() * side.value(p, patches_.square_radius()); };
+    const Gradient g = bound_gradient(side, mid);
+    const Real middle = value(mid), x = side.sign() * g.x, y = side.sign() * g.y;
+    const auto tangent = [&](Point p) { return middle + x * (p.x - mid.x) + y * (p.y - mid.y); };
+    Real above = 0;  // the function, by as much as it is concave
+    for (const Point p : corner) above = std::max(above, tangent(p) - value(p));
+    clip_polygon(part, [&](Point p) { return tangent(p) - above; });
+  }
+  return std::all_of(part.begin(), part.end(), [&](Point p) { return outside(wall, p) + inset <= tolerance_; });
 }
 
 /// True if a patch that the body behind a wall hides, but for `inset`, is beyond that wall beside another edge and not
