@@ -226,7 +226,7 @@ int run_buffer(const BufferOptions& options, Session& session) {
   Stopwatch reading;
   const std::string in_name = input_name(options.input.path);
   input::NetworkRequest request = options.input;
-  request.keep_arcs = is_plain(plan->shape, plan->radii) && plan->engine == "auto";
+  request.keep_arcs = takes_arcs(plan->shape) && plan->engine == "auto";
   Result<input::NetworkData> data = input::read_network(request, session.context("reading"));
   if (!data) return session.fail(in_name, data.error());
   for (const std::string& note : data->notes) session.note(in_name, note);
@@ -234,7 +234,7 @@ int run_buffer(const BufferOptions& options, Session& session) {
 
   Result<std::vector<Zone>> zones =
       is_plain(plan->shape, plan->radii) ? compute_zones(*data, *plan, session)
-                                         : shaped_zones(data->network, plan->radii, plan->shape, in_name, session);
+                                         : shaped_zones(*data, plan->radii, plan->shape, in_name, session);
   if (zones.ok() && plan->file.bands) zones = bands_of(*zones, session);
   if (!zones) return session.fail(in_name, zones.error());
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <optional>
 
+#include "krepl/curve_zone.hpp"
 #include "stopwatch.hpp"
 
 namespace krepl::app {
@@ -41,9 +42,8 @@ std::string text_of(RingFault::Kind kind) {
   return "";
 }
 
-}  // namespace
-
-Status tell_ring_faults(const Network& network, const std::string& in_name, Session& session) {
+template <class AnyNetwork>
+Status tell_faults(const AnyNetwork& network, const std::string& in_name, Session& session) {
   constexpr std::size_t most = 10;
   const auto faults = check_rings(network, session.context("checking rings"));
   session.finish_progress();
@@ -62,8 +62,6 @@ Status tell_ring_faults(const Network& network, const std::string& in_name, Sess
   return std::monostate{};
 }
 
-namespace {
-
 void tell(const Zone& zone, double seconds, Session& session) {
   const ZoneCounters& c = zone.counters();
   session.detail(fmt::format("shape      {:.3f} s: radius {}, {} pieces, {} rings ({} holes), {} polygons", seconds,
@@ -76,6 +74,18 @@ void tell(const Zone& zone, double seconds, Session& session) {
 }
 
 }  // namespace
+
+Status tell_ring_faults(const Network& network, const std::string& in_name, Session& session) {
+  return tell_faults(network, in_name, session);
+}
+
+Status tell_ring_faults(const CurveNetwork& network, const std::string& in_name, Session& session) {
+  return tell_faults(network, in_name, session);
+}
+
+bool takes_arcs(const ShapeOptions& shape) {
+  return shape.side == Side::both && shape.cap == Cap::round && shape.join == Join::round;
+}
 
 void add_shape_options(Verb& verb, ShapeArguments& shape) {
   verb.add_option("--cap", shape.cap, "Ends of lines: round, flat, square").type_name("NAME");
@@ -131,17 +141,20 @@ Result<std::vector<double>> parse_signed_radii(std::string_view text) {
   return radii;
 }
 
-Result<std::vector<Zone>> shaped_zones(std::shared_ptr<const Network> network, const std::vector<double>& radii,
+Result<std::vector<Zone>> shaped_zones(const input::NetworkData& data, const std::vector<double>& radii,
                                        const ShapeOptions& shape, const std::string& in_name, Session& session) {
-  if (network->has_polygons()) {
-    if (Status told = tell_ring_faults(*network, in_name, session); !told) return told.error();
+  if (data.network->has_polygons()) {
+    const Status told = data.curves ? tell_ring_faults(*data.curves, in_name, session)
+                                    : tell_ring_faults(*data.network, in_name, session);
+    if (!told) return told.error();
   }
   std::vector<Zone> zones;
   for (const double radius : radii) {
     Stopwatch watch;
     ShapeOptions options = shape;
     options.distance = radius;
-    auto zone = compute_shape(network, options, session.context("computing"));
+    const Context context = session.context("computing");
+    auto zone = data.curves ? compute_shape(data.curves, options, context) : compute_shape(data.network, options, context);
     if (!zone) return zone.error();
     tell(*zone, watch.seconds(), session);
     if (zone->ring_count() == 0)

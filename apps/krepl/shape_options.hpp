@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "input/network_reader.hpp"
 #include "krepl/shape.hpp"
 #include "verbs.hpp"
 
@@ -30,10 +31,14 @@ Result<std::vector<double>> parse_signed_radii(std::string_view text);
 
 /// Notes about what is wrong with the rings of polygons.
 Status tell_ring_faults(const Network& network, const std::string& in_name, Session& session);
+Status tell_ring_faults(const CurveNetwork& network, const std::string& in_name, Session& session);
+
+/// True if zones of the shape are made of arcs as they are; else they are to be replaced by chords.
+bool takes_arcs(const ShapeOptions& shape);
 
 /// The zones at these radii, negative ones shrunk; tells on standard error what is wrong with the rings of the
 /// polygons, and what comes out empty. `in_name` names the input in messages.
-Result<std::vector<Zone>> shaped_zones(std::shared_ptr<const Network> network, const std::vector<double>& radii,
+Result<std::vector<Zone>> shaped_zones(const input::NetworkData& data, const std::vector<double>& radii,
                                        const ShapeOptions& shape, const std::string& in_name, Session& session);
 
 }  // namespace krepl::app

@@ -189,7 +189,7 @@ int verify_zones(const VerifyOptions& options, Session& session) {
     if (Status told = tell_bands(*zones, radii); !told) return session.fail(options.result, told.error());
   }
   verify::InputRequest request = options.input;
-  request.keep_arcs = is_plain(*shape, radii) && !varied;
+  request.keep_arcs = takes_arcs(*shape) && !varied;
   auto parts = verify::read_parts(request, session.context("reading"));
   session.finish_progress();
   if (!parts) return session.fail(options.input.path, parts.error());
@@ -198,10 +198,6 @@ int verify_zones(const VerifyOptions& options, Session& session) {
   if (!groups) return session.fail(options.result, groups.error());
   if (groups->empty()) return session.fail(options.result, {ErrorCode::input, "holds no zone", "", ""});
 
-  const bool arcs = std::any_of(parts->begin(), parts->end(), [](const auto& part) { return !part.middles.empty(); });
-  if (arcs && groups->begin()->first < 0)
-    return session.fail(options.input.path, {ErrorCode::input, "arcs of the input do not go with a negative radius", "",
-                                             "give the --arc-error that the result was made with"});
   const verify::Obstacle obstacle(*parts, groups->rbegin()->first);
   int status = 0;
   for (const auto& [radius, zone] : *groups) {

@@ -5,6 +5,7 @@
 #include "krepl/context.hpp"
 #include "krepl/curve_network.hpp"
 #include "krepl/error.hpp"
+#include "krepl/shape.hpp"
 #include "krepl/zone.hpp"
 
 namespace krepl {
@@ -20,5 +21,17 @@ namespace krepl {
 /// result that does not certify. Expected O(n log n); some 100 µs an element.
 Result<Zone> compute_zone(std::shared_ptr<const CurveNetwork> network, const ZoneOptions& options,
                           const Context& context = {});
+
+/// The same in one of the shapes of krepl/shape.hpp, as compute_shape of a Network makes them, without chords: shrunk
+/// polygons and rings (Zone::Role::input: along the input's own segments and arcs). With the defaults and a positive
+/// distance the same as compute_zone. Polygons of one feature count by the even-odd rule; where a feature's sides run
+/// along each other within 2^-46 of the extent, an even number of them is no border.
+///
+/// Errors: those of compute_shape and compute_zone; usage for one-sided zones.
+Result<Zone> compute_shape(std::shared_ptr<const CurveNetwork> network, const ShapeOptions& options,
+                           const Context& context = {});
+
+/// As check_rings of a Network. Places nearer to each other than 2^-46 of the extent count as one.
+Result<std::vector<RingFault>> check_rings(const CurveNetwork& network, const Context& context = {});
 
 }  // namespace krepl

@@ -64,14 +64,16 @@ std::vector<kernel::Box> CurveLocator::boxes_of(const std::vector<Side>& sides) 
 /// True if the ray from a place to the left crosses the side an odd number of times: the chord, and once more where the
 /// place is between chord and arc.
 bool CurveLocator::is_crossed(const Side& s, Point from) {
+  // Places on the chord count as left of it, so that it does not matter which way round it runs; and as above a level one.
   const double turn = cross(s.p, s.q, from);
   const bool upward = s.p.y < s.q.y;
-  const bool chord = (s.p.y <= from.y) != (s.q.y <= from.y) && (turn < 0) == upward;
+  const bool chord = (s.p.y <= from.y) != (s.q.y <= from.y) && (upward ? turn < 0 : turn > 0);
   if (!s.arc) return chord;
   const Point v{from.x - s.p.x, from.y - s.p.y}, w = s.to_centre;
   const bool in_circle = v.x * (v.x - 2 * w.x) + v.y * (v.y - 2 * w.y) < 0;
   // A left turn bulges to the right of its chord.
-  const bool beyond = s.p == s.q || (s.left ? turn < 0 : !(turn < 0));
+  const bool right = turn < 0 || (turn == 0 && (s.p.y == s.q.y ? s.q.x < s.p.x : !upward));
+  const bool beyond = s.p == s.q || s.left == right;
   return chord != (in_circle && beyond);
 }
 

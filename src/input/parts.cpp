@@ -153,7 +153,7 @@ std::vector<std::uint32_t> Parts::middles_of(std::size_t i) const {
 Status Parts::add(const OGRGeometry& geometry, std::int64_t number, const std::string& place) {
   has_height = has_height || geometry.Is3D() || geometry.IsMeasured();
   if (geometry.hasCurveGeometry(TRUE) && !(arc_error > 0) && !keep_arcs) {
-    return Error{ErrorCode::input, "arcs as input are supported by krepl buffer, for whole round zones, only", place,
+    return Error{ErrorCode::input, "arcs of the input cannot stay arcs here", place,
                  "give --arc-error LENGTH for chords in their place that deviate by no more"};
   }
   return geometry.hasCurveGeometry() ? add_curved(geometry, number, place) : add_linear(geometry, number, place);

@@ -1,9 +1,9 @@
 #include <cmath>
-#include <string>
 
 #include "krepl/shape.hpp"
 #include "shape/bodies.hpp"
 #include "shape/body_union.hpp"
+#include "shape/check_options.hpp"
 #include "shape/one_sided.hpp"
 #include "shape/polygon_border.hpp"
 #include "zone/assembly.hpp"
@@ -13,36 +13,6 @@
 namespace krepl {
 namespace shape {
 namespace {
-
-Error usage(std::string what, std::string remedy) { return {ErrorCode::usage, std::move(what), "", std::move(remedy)}; }
-
-Status check_options(const Network& network, const ShapeOptions& o) {
-  if (!std::isfinite(o.distance) || o.distance == 0)
-    return usage("the radius is zero or not a finite number", "give a number above or below zero");
-  if (!std::isfinite(o.mitre_limit) || o.mitre_limit < 1)
-    return usage("the mitre limit is below 1", "give the largest ratio of a mitre's length to the radius, 1 or more");
-  if (o.ring && !network.has_polygons())
-    return usage("there is no polygon to take out of its zone", "a ring is made of polygons");
-  if (o.side == Side::both) return std::monostate{};
-  if (o.distance < 0) return usage("a one-sided zone has no negative radius", "choose the other side");
-  if (network.has_polygons())
-    return usage("a polygon has no left or right side", "use a negative radius, or a ring, for one side of its border");
-  if (o.join != Join::round) return usage("one-sided zones have round joins only", "leave the join out");
-  if (o.cap == Cap::square) return usage("one-sided zones end straight across", "leave the cap out");
-  return std::monostate{};
-}
-
-/// Lines and points do not shrink.
-Status check_shrinkable(const Network& network) {
-  for (Index p = 0; p < network.part_count(); ++p) {
-    if (network.part_is_ring(p)) continue;
-    const bool point = network.part(p).size() == 1;
-    return Error{ErrorCode::usage,
-                 std::string("a negative radius shrinks polygons, but there is a ") + (point ? "point" : "line"),
-                 "feature " + std::to_string(network.part_feature(p)), "leave it out, or give a positive radius"};
-  }
-  return std::monostate{};
-}
 
 /// Rings of the zone of all sides, segments and points, and how far apart they are at least.
 struct Outline {
@@ -73,12 +43,6 @@ Result<Outline> outline(const Network& network, const ShapeOptions& o, const Con
   return result;
 }
 
-void append(zone::ShapedRings& rings, const zone::ShapedRings& more) {
-  const Index shift = rings.begin.back();
-  rings.piece.insert(rings.piece.end(), more.piece.begin(), more.piece.end());
-  for (std::size_t r = 1; r < more.begin.size(); ++r) rings.begin.push_back(more.begin[r] + shift);
-}
-
 Result<Zone> two_sided(std::shared_ptr<const Network> network, const ShapeOptions& o, const Context& context) {
   std::shared_ptr<const Network> base = network;
   const bool inward = o.distance < 0;
@@ -97,7 +61,7 @@ Result<Zone> two_sided(std::shared_ptr<const Network> network, const ShapeOption
     auto border = union_border(*network, *base, context);
     if (!border) return border.error();
     // Outwards the zone is what lies between its rings and the border, inwards the same from the other side.
-    append(rings, inward ? *border : zone::reversed(*border));
+    rings.append(inward ? *border : zone::reversed(*border));
   } else if (inward) {
     rings = zone::reversed(rings);
   }

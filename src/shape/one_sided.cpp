@@ -72,6 +72,7 @@ class Outline {
   /// Walks along what has no wanted face on its other side.
   Result<zone::ShapedRings> rings() const {
     zone::ShapedRings rings;
+    rings.touch = true;  // where lines cross
     std::vector<bool> done(items_.size(), false);
     for (Index first = 0; first < items_.size(); ++first) {
       if (done[first] || is_inside(first)) continue;
@@ -214,6 +215,7 @@ class Outline {
 /// Drops pieces that are too short to be told, then rings that enclose nothing.
 zone::ShapedRings cleaned(const zone::ShapedRings& rings, double resolution, double radius, ZoneCounters& counters) {
   zone::ShapedRings out;
+  out.touch = rings.touch;
   for (Index r = 0; r < rings.ring_count(); ++r) {
     std::vector<Zone::Piece> kept;
     for (Index e = rings.begin[r]; e < rings.begin[r + 1]; ++e) {

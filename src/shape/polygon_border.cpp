@@ -283,6 +283,7 @@ Result<zone::ShapedRings> union_border(const Network& network, const Network& ta
     return Point{arrangement->place[i].x + shift.x, arrangement->place[i].y + shift.y};
   };
   zone::ShapedRings rings;
+  rings.touch = true;  // polygons that share a vertex
   std::vector<bool> done(border.size(), false);
   for (Index first = 0; first < border.size(); ++first) {
     if (done[first]) continue;

@@ -32,7 +32,8 @@ Real sweep_of(Vec a, Vec m, Vec b, Vec c, Real r) {
 }  // namespace
 
 std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle,
-                                     Real radius, Real inner, Real tolerance, ArcFit& fit) {
+                                     const ArcPlaces& places, ArcFit& fit) {
+  const Real radius = places.radius, tolerance = places.tolerance, inner = places.inner;
   std::vector<Curve> curves;
   std::uint32_t ring = 0;
   const auto& vertices = obstacle.vertices();
@@ -53,7 +54,7 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
     return best;
   };
 
-  /// The arc of the input that is concentric with these three places, R away from them all.
+  /// The arc of the input that is concentric with these three places, as far from them all as it may be.
   const auto find_arc = [&](const Vec(&p)[3], std::optional<CircularArc>& bow) {
     Box around;
     around.add(p[1]);
@@ -63,8 +64,8 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
       const auto& own = segments.items()[i].arc;
       if (!own) return;
       const Real r = radius - segments.items()[i].inset;
-      for (const Real side : {r, -r, inner, -inner}) {
-        if (side == 0) continue;
+      for (const Real side : {r, -r, inner, -inner, Real(0), r - 2 * own->r}) {
+        if (side == 0 ? !places.along : side == r - 2 * own->r && !places.beyond) continue;
         Real worst = 0;
         for (const Vec& q : p) worst = std::max(worst, std::abs(own->off_circle(q) - side));
         if (worst >= best || own->r + side <= 0) continue;
@@ -124,9 +125,9 @@ std::vector<Curve> Boundary::resolve(const std::vector<input::ResultPolygon>& po
   return curves;
 }
 
-Boundary::Boundary(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle, Real radius,
-                   Real tolerance, Real inner)
-    : curves_(resolve(polygons, obstacle, radius, inner, tolerance, arc_fit_)) {
+Boundary::Boundary(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle,
+                   const ArcPlaces& places)
+    : curves_(resolve(polygons, obstacle, places, arc_fit_)) {
   make_rings(polygons);
   make_parts();
 }

@@ -33,6 +33,15 @@ struct Curve {
   bool sweeps(Vec d) const;
 };
 
+/// Where the arcs of a result may be: about an input vertex, or concentric with an arc of the input.
+struct ArcPlaces {
+  Real radius;         ///< the distance from that
+  Real tolerance;
+  Real inner = 0;      ///< another distance, of a band
+  bool along = false;  ///< also on the arc of the input itself
+  bool beyond = false; ///< also as far from it across its centre: on a circle of R - r
+};
+
 /// What turning a result's pieces into curves found about its arcs: each must be centred at an input vertex, or be
 /// concentric with an arc of the input and R away from it.
 struct ArcFit {
@@ -45,10 +54,9 @@ struct ArcFit {
 /// The boundary of a result as found in a file.
 class Boundary {
  public:
-  /// `radius`, `tolerance` and `inner` (of a band, else 0) select the input vertex that an arc is centred at. The centre is taken from the input,
-  /// since three points of a short arc determine it only badly. An arc that has none keeps the circle of its points.
-  Boundary(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle, Real radius, Real tolerance,
-           Real inner = 0);
+  /// The centre of an arc is taken from the input, since three points of a short arc determine it only badly. An arc
+  /// that has none keeps the circle of its points.
+  Boundary(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle, const ArcPlaces& places);
 
   struct Ring {
     std::uint32_t first = 0, last = 0;  // curves
@@ -88,7 +96,7 @@ class Boundary {
     Real x_at(Real y) const;
   };
   static std::vector<Curve> resolve(const std::vector<input::ResultPolygon>& polygons, const Obstacle& obstacle,
-                                    Real radius, Real inner, Real tolerance, ArcFit& fit);
+                                    const ArcPlaces& places, ArcFit& fit);
   void make_rings(const std::vector<input::ResultPolygon>& polygons);
   void make_parts();
   void add_parts_of(const CircularArc& arc, std::uint32_t ring, std::vector<std::pair<Real, Real>>& ranges);

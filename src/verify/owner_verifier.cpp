@@ -106,7 +106,7 @@ Result<std::vector<Check>> check_owners(std::span<const std::vector<InputPart>> 
   const Real tolerance = std::max(Real(1e-9L) * std::max(Real(options.radius), all.extent()), 64 * all.resolution());
   const Real deviation = tolerance + options.max_error;
   std::vector<Boundary> boundaries;
-  for (const auto& share : shares) boundaries.emplace_back(share, all, options.radius, tolerance);
+  for (const auto& share : shares) boundaries.emplace_back(share, all, ArcPlaces{options.radius, tolerance});
 
   const Box region = all.box().grown(options.radius);
   std::atomic<std::uint64_t> undecided{0};

@@ -1,7 +1,8 @@
 #include "verify/shape_oracle.hpp"
 
 #include <algorithm>
-#include <set>
+#include <map>
+#include <tuple>
 #include <utility>
 
 namespace krepl::verify {
@@ -19,95 +20,147 @@ Real angle_from(Vec u, Vec v) {  // counter-clockwise, in [0, 2 pi)
   return a < 0 ? a + 2 * pi : a;
 }
 
+/// A segment or arc as it runs in the input.
+struct Element {
+  const InputPart& part;
+  Point a, b;
+  std::shared_ptr<const CircularArc> arc;
+
+  /// Of elements with the same ends: the same for those that coincide.
+  using Key = std::tuple<Coordinates, Coordinates, Coordinates>;
+  Key key(double grain) const {
+    Coordinates middle{HUGE_VAL, HUGE_VAL};
+    if (arc) {
+      const Vec m = arc->at(0.5L);
+      middle = {double(std::round(m.x / grain)), double(std::round(m.y / grain))};
+    }
+    return {std::min(coordinates(a), coordinates(b)), std::max(coordinates(a), coordinates(b)), middle};
+  }
+  /// The direction in which it leaves its first or last place.
+  Vec direction(bool first) const {
+    if (!arc) return unit(first ? vec(coordinates(b)) - vec(coordinates(a)) : vec(coordinates(a)) - vec(coordinates(b)));
+    const Vec from_centre = (first ? Vec(0, 0) : arc->b - arc->a) - arc->to_centre;
+    return unit((arc->left == first ? Real(1) : Real(-1)) * left_of(from_centre));
+  }
+};
+
+void append_elements(const InputPart& part, std::vector<Element>& out) {
+  const auto& v = part.vertices;
+  auto middle = part.middles.begin();
+  for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+    if (middle != part.middles.end() && *middle == i + 1) {
+      ++middle;
+      if (const auto arc = CircularArc::through(v[i], v[i + 1], v[i + 2])) {
+        out.push_back({part, v[i], v[i + 2], std::make_shared<const CircularArc>(*arc)});
+        ++i;
+        continue;
+      }
+    }
+    out.push_back({part, v[i], v[i + 1], {}});
+  }
+  if (part.ring && v.size() > 1 && !(v.front() == v.back())) out.push_back({part, v.back(), v.front(), {}});
+}
+
 }  // namespace
 
 /// What lines meet at each place. Of a polygon's sides that lie on each other only an odd one is a border.
-std::vector<ShapeOracle::Corner> ShapeOracle::corners_of(const std::vector<InputPart>& parts, bool border_only) {
-  std::map<std::pair<std::int64_t, std::pair<Coordinates, Coordinates>>, int> count;
-  const auto for_each_side = [&](auto&& f) {
-    for (const InputPart& part : parts) {
-      const auto& v = part.vertices;
-      for (std::size_t i = 0; i + 1 < v.size(); ++i) f(part, v[i], v[i + 1]);
-      if (part.ring && v.size() > 1 && !(v.front() == v.back())) f(part, v.back(), v.front());
-    }
+ShapeOracle::Picture ShapeOracle::picture_of(const std::vector<InputPart>& parts, bool border_only) {
+  std::vector<Element> elements;
+  double largest = 0;
+  for (const InputPart& part : parts) {
+    append_elements(part, elements);
+    for (const Point p : part.vertices) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+  }
+  const double grain = std::max(1e-10 * largest, 1e-300);
+  std::map<std::pair<std::int64_t, Element::Key>, int> count;
+  if (border_only)
+    for (const Element& e : elements) ++count[{e.part.feature, e.key(grain)}];
+
+  struct Arm {
+    Vec direction;
+    bool out, in;
   };
-  const auto key = [&](const InputPart& part, Point a, Point b) {
-    return std::pair{part.feature,
-                     std::pair{std::min(coordinates(a), coordinates(b)), std::max(coordinates(a), coordinates(b))}};
-  };
-  if (border_only) for_each_side([&](const InputPart& part, Point a, Point b) { ++count[key(part, a, b)]; });
-  std::map<Coordinates, std::map<Coordinates, std::pair<bool, bool>>> arms;  // with senses: out, in
-  for (const InputPart& part : parts)
-    if (part.vertices.size() == 1 && !border_only) arms[coordinates(part.vertices[0])];
-  for_each_side([&](const InputPart& part, Point a, Point b) {
-    if (coordinates(a) == coordinates(b)) {
-      if (!border_only) arms[coordinates(a)];
-      return;
+  std::map<Coordinates, std::vector<Arm>> arms;
+  std::map<Element::Key, std::size_t> known;
+  Picture picture;
+  if (!border_only)
+    for (const InputPart& part : parts)
+      if (part.vertices.size() == 1) arms[coordinates(part.vertices[0])];
+  for (const Element& e : elements) {
+    if (coordinates(e.a) == coordinates(e.b) && !e.arc) {
+      if (!border_only) arms[coordinates(e.a)];
+      continue;
     }
-    if (border_only && count[key(part, a, b)] % 2 == 0) return;
-    if (arms[coordinates(a)].contains(coordinates(b))) return;  // of lines that run along each other the first counts
-    arms[coordinates(a)][coordinates(b)].first = true;
-    arms[coordinates(b)][coordinates(a)].second = true;
-  });
-  std::vector<Corner> corners;
-  for (const auto& [at, neighbours] : arms) {
+    if (border_only && count[{e.part.feature, e.key(grain)}] % 2 == 0) continue;
+    // Of lines that run along each other the first counts.
+    if (!known.emplace(e.key(grain), picture.sides.size()).second) continue;
+    Side side{vec(coordinates(e.a)), vec(coordinates(e.b)), e.arc};
+    side.forward = true;
+    picture.sides.push_back(side);
+    arms[coordinates(e.a)].push_back({e.direction(true), true, false});
+    arms[coordinates(e.b)].push_back({e.direction(false), false, true});
+  }
+  std::map<Coordinates, bool> is_end;
+  for (auto& [at, leaving] : arms) {
     Corner c;
     c.at = vec(at);
-    std::vector<std::pair<Real, Coordinates>> order;
-    for (const auto& [to, sense] : neighbours) order.emplace_back(angle_from(Vec(1, 0), vec(to) - c.at), to);
-    std::sort(order.begin(), order.end());
-    for (const auto& [angle, to] : order) {
-      c.arms.push_back(vec(to));
-      c.out.push_back(neighbours.at(to).first);
-      c.in.push_back(neighbours.at(to).second);
+    std::vector<std::pair<Real, Arm>> order;
+    for (const Arm& arm : leaving) order.emplace_back(angle_from(Vec(1, 0), arm.direction), arm);
+    std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [angle, arm] : order) {
+      c.arms.push_back(arm.direction);
+      c.out.push_back(arm.out);
+      c.in.push_back(arm.in);
     }
-    Real rest = 2 * pi;  // the last gap: arms may lie on each other
-    for (std::size_t i = 0; i + 1 < c.arms.size(); ++i) {
-      c.gap.push_back(angle_from(c.arms[i] - c.at, c.arms[i + 1] - c.at));
-      rest -= c.gap.back();
-    }
-    if (!c.arms.empty()) c.gap.push_back(rest);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      c.gap.push_back(i + 1 < order.size() ? order[i + 1].first - order[i].first
+                                           : 2 * pi - (order.back().first - order.front().first));
     c.end = std::any_of(c.gap.begin(), c.gap.end(), [](Real gap) { return gap > 2 * pi - 0x1p-20L; });
-    corners.push_back(std::move(c));
+    is_end[at] = c.end;
+    picture.corners.push_back(std::move(c));
   }
-  return corners;
-}
-
-std::vector<ShapeOracle::Side> ShapeOracle::sides_of(const std::vector<Corner>& corners) {
-  std::map<std::pair<Real, Real>, bool> is_end;
-  for (const Corner& c : corners) is_end[{c.at.x, c.at.y}] = c.end;
-  std::vector<Side> sides;
-  for (const Corner& c : corners)
-    for (std::size_t i = 0; i < c.arms.size(); ++i) {
-      const Vec o = c.arms[i];
-      if (std::pair{o.x, o.y} < std::pair{c.at.x, c.at.y}) continue;
-      sides.push_back({c.at, o, c.end, is_end[{o.x, o.y}], c.out[i], c.in[i]});
-    }
-  return sides;
+  for (Side& s : picture.sides) {
+    s.end_a = is_end[{double(s.a.x), double(s.a.y)}];
+    s.end_b = is_end[{double(s.b.x), double(s.b.y)}];
+  }
+  return picture;
 }
 
 ShapeOracle::ShapeOracle(const std::vector<InputPart>& parts, const Obstacle& obstacle, const ShapeQuestion& question)
+    : ShapeOracle(picture_of(parts, question.distance < 0), obstacle, question) {}
+
+ShapeOracle::ShapeOracle(Picture picture, const Obstacle& obstacle, const ShapeQuestion& question)
     : obstacle_(obstacle),
       question_(question),
       radius_(std::abs(Real(question.distance))),
       reach_(radius_ *
              (question.join == ShapeQuestion::Join::mitre ? std::max(Real(question.mitre_limit), 1.5L) : 1.5L)),
-      corners_(corners_of(parts, question.distance < 0)),
-      sides_(sides_of(corners_.items())) {}
+      corners_(std::move(picture.corners)),
+      sides_(std::move(picture.sides)) {}
 
+/// Straight beside a segment.
 ShapeOracle::Depth ShapeOracle::in_rectangle(const Side& s, Vec p) const {
   const Vec d = unit(s.b - s.a);
   const Real l = verify::distance(s.a, s.b), u = dot(p - s.a, d), across = std::abs(cross(d, p - s.a));
-  const bool square = question_.cap == ShapeQuestion::Cap::square, round = question_.cap == ShapeQuestion::Cap::round;
   Depth depth{radius_ - across, HUGE_VALL};
   const auto bound = [&](Real inwards, bool end) {
-    if (end && square) inwards += radius_;
-    // Behind a round cap and behind a vertex the zone goes on.
-    (end && !round ? depth.outer : depth.walls) = std::min(end && !round ? depth.outer : depth.walls, inwards);
+    // Behind a cap that is not flat, and behind a vertex, the zone goes on.
+    const bool outer = end && question_.cap == ShapeQuestion::Cap::flat;
+    (outer ? depth.outer : depth.walls) = std::min(outer ? depth.outer : depth.walls, inwards);
   };
   bound(u, s.end_a);
   bound(l - u, s.end_b);
   return depth;
+}
+
+/// Straight beside an arc: on the ray from the centre through one of its places, within R of that. Where R is more than
+/// the arc's radius, also beyond the centre.
+void ShapeOracle::in_arc(const Side& s, Vec p, std::vector<Depth>& out) const {
+  const CircularArc& arc = *s.arc;
+  if (arc.spans(p)) out.push_back({radius_ - std::abs(arc.off_circle(p)), 0});
+  if (arc.r >= radius_) return;
+  const Vec from_centre = p - arc.a - arc.to_centre;
+  if (arc.spans(arc.a + arc.to_centre - from_centre)) out.push_back({radius_ - arc.r - length(from_centre), 0});
 }
 
 void ShapeOracle::in_corner(const Corner& c, Vec p, std::vector<Depth>& out) const {
@@ -120,11 +173,14 @@ void ShapeOracle::in_corner(const Corner& c, Vec p, std::vector<Depth>& out) con
     return;
   }
   if (c.end) {
-    if (question_.cap == Cap::round) out.push_back({radius_ - length(v), dot(v, unit(c.at - c.arms[0]))});
+    const Real beyond = -dot(v, c.arms[0]);
+    if (question_.cap == Cap::round) out.push_back({radius_ - length(v), beyond});
+    if (question_.cap == Cap::square)
+      out.push_back({radius_ - std::max(beyond, std::abs(cross(c.arms[0], v))), beyond});
     return;
   }
   for (std::size_t i = 0; i < c.arms.size(); ++i) {
-    const Vec d = unit(c.arms[i] - c.at), e = unit(c.arms[(i + 1) % c.arms.size()] - c.at);
+    const Vec d = c.arms[i], e = c.arms[(i + 1) % c.arms.size()];
     const Real gap = c.gap[i];
     if (gap <= pi) continue;
     // The outer normals: left of the arm before the gap, right of the one behind it.
@@ -155,7 +211,13 @@ bool ShapeOracle::zone_holds(Vec p) const {
     depths.clear();
   };
   sides_.for_each_in(around, [&](std::uint32_t i) {
-    if (!found) depths.push_back(in_rectangle(sides_.items()[i], p)), look();
+    if (found) return;
+    const Side& s = sides_.items()[i];
+    if (s.arc)
+      in_arc(s, p, depths);
+    else
+      depths.push_back(in_rectangle(s, p));
+    look();
   });
   corners_.for_each_in(around, [&](std::uint32_t i) {
     if (!found) in_corner(corners_.items()[i], p, depths), look();
@@ -186,8 +248,7 @@ bool ShapeOracle::on_side(const Corner& c, Vec direction) const {
   const bool left = question_.side == ShapeQuestion::Side::left;
   for (std::size_t i = 0; i < c.arms.size(); ++i) {
     const std::size_t j = (i + 1) % c.arms.size();
-    const Vec d = c.arms[i] - c.at;
-    if (angle_from(d, direction) > c.gap[i]) continue;
+    if (angle_from(c.arms[i], direction) > c.gap[i]) continue;
     if (c.end) return false;
     // The gap is on the left of arm i as it leaves, on the right of arm j.
     const bool first = left ? c.out[i] : c.in[i], second = left ? c.in[j] : c.out[j];

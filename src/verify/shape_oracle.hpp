@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <memory>
 #include <vector>
 
 #include "verify/obstacle.hpp"
@@ -37,7 +37,7 @@ class ShapeOracle {
  private:
   struct Corner {
     Vec at;
-    std::vector<Vec> arms;      // neighbours, in counter-clockwise order around the corner
+    std::vector<Vec> arms;      // directions of what leaves it, in counter-clockwise order
     std::vector<bool> out, in;  // per arm: some line runs along it away from the corner, towards it
     std::vector<Real> gap;      // per arm: counter-clockwise angle to the next one
     bool end = false;           // all arms leave in one direction
@@ -50,23 +50,30 @@ class ShapeOracle {
   };
   struct Side {
     Vec a, b;
-    bool end_a, end_b;       // a line ends there
-    bool forward, backward;  // lines run from a to b, from b to a
+    std::shared_ptr<const CircularArc> arc;  // null: straight
+    bool end_a = false, end_b = false;           // a line ends there
+    bool forward = false, backward = false;      // lines run from a to b, from b to a
     Box box() const {
+      if (arc) return arc->box();
       Box r;
       r.add(a), r.add(b);
       return r;
     }
-    Real distance(Vec p) const { return distance_to_segment(p, a, b); }
+    Real distance(Vec p) const { return arc ? arc->distance(p) : distance_to_segment(p, a, b); }
   };
   /// How deep a place lies in a body: within its outer borders, and between the walls that other bodies go on behind.
   struct Depth {
     Real outer, walls;
   };
 
-  static std::vector<Corner> corners_of(const std::vector<InputPart>& parts, bool border_only);
-  static std::vector<Side> sides_of(const std::vector<Corner>& corners);
+  struct Picture {
+    std::vector<Corner> corners;
+    std::vector<Side> sides;
+  };
+  static Picture picture_of(const std::vector<InputPart>& parts, bool border_only);
+  ShapeOracle(Picture picture, const Obstacle& obstacle, const ShapeQuestion& question);
   Depth in_rectangle(const Side& s, Vec p) const;
+  void in_arc(const Side& s, Vec p, std::vector<Depth>& out) const;
   void in_corner(const Corner& c, Vec p, std::vector<Depth>& out) const;
   bool zone_holds(Vec p) const;
   bool side_holds(Vec p) const;

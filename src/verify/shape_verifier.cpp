@@ -22,12 +22,24 @@ Real distance_of_border(const ShapeOracle& oracle, Vec p, Real tolerance, Real m
   return far;
 }
 
-Check check_boundary(const ZoneCase& zone, const ShapeOracle& oracle) {
+/// True where sides of the input meet: if they touch, what is between them is narrower than any circle of places shows.
+bool sides_meet(const Obstacle& obstacle, Vec p, Real tolerance) {
+  std::size_t count = 0;
+  Box around;
+  around.add(p);
+  const auto& segments = obstacle.segments();
+  segments.for_each_in(around.grown(tolerance),
+                       [&](std::uint32_t i) { count += segments.items()[i].distance(p) <= tolerance; });
+  return count > 1;
+}
+
+Check check_boundary(const ZoneCase& zone, const ShapeOracle& oracle, const ShapeQuestion& question) {
   const auto& curves = zone.boundary.curves().items();
   const std::size_t inner = per_item(curves.size(), 1e5, 3, 32, zone.effort);
   const Tally tally = tally_all(zone.context, curves.size(), [&](std::size_t i, Tally& t) {
     for (std::size_t k = 1; k <= inner; ++k) {
       const Vec p = curves[i].at(Real(k) / Real(inner + 1));
+      if (question.ring && sides_meet(zone.obstacle, p, zone.tolerance)) continue;
       t.add(distance_of_border(oracle, p, zone.deviation, 4 * zone.radius), zone.deviation, p);
     }
   });
@@ -63,6 +75,8 @@ Result<ZoneReport> check_shape(const std::vector<input::ResultPolygon>& polygons
                                const ShapeQuestion& question, const ZoneCheckOptions& asked, const Context& context) {
   ZoneCheckOptions options = asked;
   options.radius = std::abs(question.distance);
+  options.along = question.ring;
+  options.beyond = question.cap != ShapeQuestion::Cap::round || question.join != ShapeQuestion::Join::round;
   const Obstacle obstacle(parts);
   const auto measured = measure(polygons, obstacle, options);
   if (!measured) return measured.error();
@@ -76,7 +90,7 @@ Result<ZoneReport> check_shape(const std::vector<input::ResultPolygon>& polygons
   };
   add(check_joins(zone));
   add(check_centres(zone));
-  if (!context.cancelled()) add(check_boundary(zone, oracle));
+  if (!context.cancelled()) add(check_boundary(zone, oracle, question));
   if (!context.cancelled()) add(check_places(zone, oracle));
   if (!context.cancelled()) add(check_crossings(zone));
   if (!context.cancelled()) add(check_nesting(zone));

@@ -45,7 +45,8 @@ Result<MeasuredZone> measure(const std::vector<input::ResultPolygon>& polygons, 
   report.scale = double(std::max(Real(options.radius), obstacle.extent()));
   // What the contract promises, unless the coordinates themselves cannot express it.
   report.tolerance = double(std::max(Real(1e-9L) * report.scale, 64 * obstacle.resolution()));
-  Boundary boundary(polygons, obstacle, options.radius, report.tolerance, options.inner);
+  Boundary boundary(polygons, obstacle,
+                    {options.radius, report.tolerance, options.inner, options.along, options.beyond});
   report.area = double(boundary.area());
   report.perimeter = double(boundary.perimeter());
   report.polygons = polygons.size();

@@ -18,6 +18,9 @@ struct ZoneCheckOptions {
   double inner = 0;
   /// Deviation that a linear format was allowed (absolute, 0 for true curves); added to every tolerance.
   double max_error = 0;
+  /// Of zones of other shapes: arcs of the boundary may lie on arcs of the input (rings), or across their centres (flat
+  /// caps and joins). Set by check_shape.
+  bool along = false, beyond = false;
   /// Number of points whose membership is tested; 0: as many as take some seconds.
   std::uint64_t samples = 0;
   /// Factor on the number of samples of all checks, greater than 0.

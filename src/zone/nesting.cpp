@@ -70,6 +70,33 @@ class PieceShape {
     return p_.x <= q_.x ? p_ : q_;
   }
 
+  /// True if the ray from a place to the left crosses the piece an odd number of times: the chord, and once more where the
+  /// place is between chord and arc. Places on the chord count as left of it, or above it if it is level.
+  bool is_crossed(Point from) const {
+    const double turn = cross(p_, q_, from);
+    const bool upward = p_.y < q_.y;
+    const bool chord = (p_.y <= from.y) != (q_.y <= from.y) && (upward ? turn < 0 : turn > 0);
+    if (!arc_) return chord;
+    const bool right = turn < 0 || (turn == 0 && (p_.y == q_.y ? q_.x < p_.x : !upward));
+    if (!(p_ == q_) && !right) return chord;
+    const Point v{from.x - p_.x, from.y - p_.y}, u{from.x - centre_.x, from.y - centre_.y};
+    const bool in_circle = short_ ? v.x * (v.x - 2 * to_centre_.x) + v.y * (v.y - 2 * to_centre_.y) < 0
+                                  : std::hypot(u.x, u.y) < radius_;
+    return chord != in_circle;
+  }
+
+  double chord() const { return p_ == q_ && arc_ ? 2 * radius_ : std::hypot(q_.x - p_.x, q_.y - p_.y); }
+
+  Point middle() const {
+    const Point m{p_.x + (q_.x - p_.x) / 2, p_.y + (q_.y - p_.y) / 2};
+    if (!arc_) return m;
+    if (p_ == q_) return {2 * centre_.x - p_.x, 2 * centre_.y - p_.y};
+    const double length = chord(), half = length / 2;
+    const double off = std::sqrt(std::max(0.0, (radius_ - half) * (radius_ + half)));  // of the centre from the chord
+    const double height = short_ || cross(p_, q_, centre_) > 0 ? half * half / (radius_ + off) : radius_ + off;
+    return {m.x + (q_.y - p_.y) / length * height, m.y - (q_.x - p_.x) / length * height};
+  }
+
   /// The largest x below `limit_x` at height y on the piece; -infinity if there is none. What comes within `slack` of the ray
   /// counts as hit: no boundary fits in between, so it borders the same face.
   double hit_left_of(double limit_x, double y, double slack) const {
@@ -211,6 +238,64 @@ bool runs_clockwise(const ShapedRings& rings, double radius, Index r) {
 }
 
 template <class AnyPicture>
+kernel::BoxTree tree_of(const AnyPicture& picture, double slack, const Context& quiet) {
+  const std::size_t pieces = picture.begin().back();
+  std::vector<Box> boxes((pieces + chunk - 1) / chunk);
+  kernel::parallel_blocks(quiet, boxes.size(), 1 << 10, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from * chunk; i < std::min(pieces, to * chunk); ++i) {
+      Box b = picture.shape(Index(i)).box();
+      b.min_y -= slack;
+      b.max_y += slack;
+      boxes[i / chunk].add(b);
+    }
+  });
+  return kernel::BoxTree(std::move(boxes));
+}
+
+/// Rings that may touch in places: each is looked at from the middle of its longest piece, and lies in the innermost of
+/// the rings that hold that.
+Result<Nesting> nest_touching(const ShapedPicture& picture, double slack, const Context& context) {
+  const std::vector<Index>& begin = picture.begin();
+  const Index count = Index(begin.size() - 1);
+  Context quiet;
+  quiet.threads = context.threads;
+  const kernel::BoxTree tree = tree_of(picture, slack, quiet);
+  std::vector<Point> place(count);
+  std::vector<std::vector<Index>> around(count);  // the rings that hold it
+  kernel::parallel_blocks(quiet, count, 64, [&](std::size_t from, std::size_t to) {
+    std::vector<Index> crossed;
+    for (std::size_t r = from; r < to; ++r) {
+      double longest = -1;
+      for (Index e = begin[r]; e < begin[r + 1]; ++e) {
+        const auto shape = picture.shape(e);
+        if (shape.chord() > longest) longest = shape.chord(), place[r] = shape.middle();
+      }
+      crossed.clear();
+      tree.visit_left_of(place[r], [] { return -infinity; }, [&](std::size_t box) {
+        for (std::size_t e = box * chunk; e < std::min<std::size_t>(begin.back(), (box + 1) * chunk); ++e)
+          if (picture.ring_of(Index(e)) != r && picture.shape(Index(e)).is_crossed(place[r]))
+            crossed.push_back(picture.ring_of(Index(e)));
+      });
+      std::sort(crossed.begin(), crossed.end());
+      for (std::size_t i = 0, j = 0; i < crossed.size(); i = j) {
+        while (j < crossed.size() && crossed[j] == crossed[i]) ++j;
+        if ((j - i) % 2 == 1) around[r].push_back(crossed[i]);
+      }
+    }
+  });
+  Nesting nesting{std::vector<bool>(count), std::vector<Index>(count, none)};
+  for (Index r = 0; r < count; ++r) {
+    nesting.is_hole[r] = picture.clockwise(r);
+    for (const Index s : around[r])
+      if (picture.clockwise(s) != nesting.is_hole[r] &&
+          (nesting.parent[r] == none || around[s].size() > around[nesting.parent[r]].size()))
+        nesting.parent[r] = s;
+    if (nesting.is_hole[r] && nesting.parent[r] == none) return hole_in_nothing(place[r]);
+  }
+  return nesting;
+}
+
+template <class AnyPicture>
 Result<Nesting> nest_picture(const AnyPicture& picture, double slack, const Context& context) {
   const std::vector<Index>& begin = picture.begin();
   const Index count = Index(begin.size() - 1);
@@ -230,16 +315,7 @@ Result<Nesting> nest_picture(const AnyPicture& picture, double slack, const Cont
     }
   });
   const std::size_t pieces = begin.back();
-  std::vector<Box> boxes((pieces + chunk - 1) / chunk);
-  kernel::parallel_blocks(quiet, boxes.size(), 1 << 10, [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from * chunk; i < std::min(pieces, to * chunk); ++i) {
-      Box b = picture.shape(Index(i)).box();
-      b.min_y -= slack;
-      b.max_y += slack;
-      boxes[i / chunk].add(b);
-    }
-  });
-  const kernel::BoxTree tree(std::move(boxes));
+  const kernel::BoxTree tree = tree_of(picture, slack, quiet);
 
   std::vector<Index> met(count, none);  // the ring that the ray to the left meets first
   kernel::parallel_blocks(quiet, count, 64, [&](std::size_t from, std::size_t to) {
@@ -280,7 +356,8 @@ Result<Nesting> nest(const Instance& in, const Rings& rings, const Context& cont
 }
 
 Result<Nesting> nest(const ShapedRings& rings, double radius, double slack, const Context& context) {
-  return nest_picture(ShapedPicture(rings, radius), slack, context);
+  const ShapedPicture picture(rings, radius);
+  return rings.touch ? nest_touching(picture, slack, context) : nest_picture(picture, slack, context);
 }
 
 Rings drop_rings_inside_polygons(const Network& network, Rings rings) {

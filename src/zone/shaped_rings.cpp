@@ -27,9 +27,16 @@ ShapedRings shaped(const Instance& in, const Rings& rings) {
   return out;
 }
 
+void ShapedRings::append(const ShapedRings& more) {
+  touch = touch || more.touch;
+  const Index shift = begin.back();
+  piece.insert(piece.end(), more.piece.begin(), more.piece.end());
+  for (std::size_t r = 1; r < more.begin.size(); ++r) begin.push_back(more.begin[r] + shift);
+}
+
 ShapedRings reversed(const ShapedRings& rings) {
   ShapedRings out;
-  out.begin = rings.begin;
+  out.begin = rings.begin, out.touch = rings.touch;
   out.piece.reserve(rings.piece.size());
   for (Index r = 0; r < rings.ring_count(); ++r) {
     for (Index e = rings.begin[r + 1]; e-- > rings.begin[r];) {

@@ -16,8 +16,12 @@ struct ShapedRings {
   /// from one of hardly any.
   std::vector<bool> clockwise = {};
 
+  bool touch = false;  ///< rings may touch each other in places
+
   Index ring_count() const { return Index(begin.size() - 1); }
   void close() { begin.push_back(Index(piece.size())); }
+  /// The other's rings after these.
+  void append(const ShapedRings& more);
 };
 
 /// The pieces that the rings of a zone stand for.

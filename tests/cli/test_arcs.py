@@ -78,9 +78,9 @@ class Arcs(support.CliTest):
         self.write("in.csv", f'id,wkt\n1,"CURVEPOLYGON ({STADIUM})"\n')
         self.ogr("ogr2ogr", "in.gpkg", "in.csv", "-oo", "GEOM_POSSIBLE_NAMES=wkt", "-oo", "KEEP_GEOM_COLUMNS=NO",
                  "-nlt", "CURVEPOLYGON", "-a_srs", "EPSG:25832")
-        self.fail_with(1, "in.gpkg: arcs as input are supported by krepl buffer, for whole round zones, only, feature 1; give "
+        self.fail_with(1, "in.gpkg: arcs of the input cannot stay arcs here, feature 1; give "
                        "--arc-error LENGTH for chords in their place that deviate by no more",
-                       "buffer", "in.gpkg", "out.wkt", "--radius", -R, output="out.wkt")
+                       "buffer", "in.gpkg", "out.wkt", "--radius", R, "--engine", "intervals", output="out.wkt")
         self.succeed("buffer", "in.gpkg", "out.wkt", "--radius", R, "--arc-error", ERROR)
         self.assertAlmostEqual(support.measure(self.text("out.wkt")).area,
                                200 + 25 * PI + (40 + 10 * PI) * R + PI * R * R, delta=ERROR * 100)
@@ -104,7 +104,7 @@ class Arcs(support.CliTest):
         self.write("in.wkt", wkt + "\n")
         done = self.succeed("buffer", "in.wkt", "out.wkt", "--radius", radius, *options)
         self.assertNotIn("chords", done.stderr)
-        self.succeed("verify", "out.wkt", "--against", "in.wkt", "--radius", radius)
+        self.succeed("verify", "out.wkt", "--against", "in.wkt", "--radius", radius, *options)
         return support.measure(self.text("out.wkt"))
 
     def test_kept_as_arcs(self):
@@ -123,6 +123,24 @@ class Arcs(support.CliTest):
                 zone = self.kept(wkt)
                 self.assertAlmostEqual(zone.area, area, delta=1e-10 * area)
                 self.assertGreaterEqual(zone.arcs, arcs)  # half circles may be written as two
+
+    def test_shrunk_and_rings(self):
+        stadium, around = 200 + 25 * PI, 40 + 10 * PI
+        for radius, options, area in (
+                (-R, (), stadium - around * R + PI * R * R),
+                (-R, ("--ring",), around * R - PI * R * R),
+                (R, ("--ring",), around * R + PI * R * R)):
+            with self.subTest(radius=radius, options=options):
+                zone = self.kept(f"CURVEPOLYGON ({STADIUM})", *options, radius=radius)
+                self.assertAlmostEqual(zone.area, area, delta=1e-9 * area)
+        self.write("in.wkt", f"CURVEPOLYGON ({STADIUM})\n")
+        done = self.succeed("buffer", "in.wkt", "out.gpkg", "--radius", -6)
+        self.assertIn("note: nothing is left at radius -6", done.stderr)
+
+    def test_faults_of_rings(self):
+        self.write("in.wkt", f"MULTISURFACE (CURVEPOLYGON ({CIRCLE}), CURVEPOLYGON (CIRCULARSTRING (5 0, 35 0, 5 0)))\n")
+        done = self.succeed("buffer", "in.wkt", "out.wkt", "--radius", -1)
+        self.assertIn("sides cross, first at", done.stderr)
 
     def test_zone_of_a_zone(self):
         self.kept("COMPOUNDCURVE ((-10 0, 0 0), CIRCULARSTRING (0 0, 10 10, 20 0, 30 -10, 40 0))", radius=1)

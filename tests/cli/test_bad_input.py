@@ -88,7 +88,7 @@ class BadInput(support.CliTest):
 
     def test_arcs(self):
         self.write("arcs.wkt", "POINT (0 0)\nCIRCULARSTRING (0 0, 1 1, 2 0)\n")
-        self.fail_with(1, "arcs.wkt: arcs as input are supported by krepl buffer, for whole round zones, only, line 2; give "
+        self.fail_with(1, "arcs.wkt: arcs of the input cannot stay arcs here, line 2; give "
                        "--arc-error LENGTH for chords in their place that deviate by no more",
                        "buffer", "arcs.wkt", "out.wkt", "--radius", "1", "--cap", "flat", output="out.wkt")
 

@@ -75,7 +75,7 @@ TEST_P(Order, HoldsTheInput) {
     const auto zone = zone_of(c);
     RC_ASSERT(zone.ok());
     const Obstacle obstacle(c.parts);
-    const Boundary boundary(plain(*zone), obstacle, c.radius, tolerance(*zone, obstacle));
+    const Boundary boundary(plain(*zone), obstacle, {c.radius, tolerance(*zone, obstacle)});
     if (c.radius < 4 * tolerance(*zone, obstacle)) return;
     for (const auto& s : obstacle.segments().items())
       for (const long double t : {0.0L, 0.5L, 1.0L})

@@ -143,6 +143,19 @@ TEST(ShapeZones, WrongShapesAreFound) {
   }
 }
 
+/// A hole's leftmost place is as high as the place where its polygon touches another.
+TEST(ShapeZones, HolesOfPolygonsThatTouch) {
+  const ZoneCase two{{ring({{0, 0}, {1, -1}, {2, 0}, {1, 1}}, 0), ring({{2, 0}, {3, -1}, {4, 0}, {3, 1}}, 1)}, 0.25};
+  ShapeOptions o;
+  o.distance = -0.25, o.ring = true;
+  const auto zone = shape_of(two, o);
+  ASSERT_TRUE(zone.ok());
+  EXPECT_EQ(counts(*zone), (RingCounts{2, 2}));
+  const auto fault = fault_in(*zone, two, o);
+  EXPECT_FALSE(fault.has_value()) << *fault;
+  for (std::uint32_t p = 0; p < 2; ++p) EXPECT_EQ(zone->polygon(p).holes.size(), 1u);
+}
+
 /// With the defaults it is compute_zone, bit for bit.
 TEST(ShapeZones, DefaultsAreTheRoundZone) {
   const ZoneCase corner{{line({{0, 0}, {10, 0.1}, {10, 10}}), point(3, 30)}, 1.3};

@@ -225,6 +225,12 @@ Result<Zone> shape_of(const ZoneCase& c, const ShapeOptions& options) {
   return compute_shape(std::make_shared<const Network>(std::move(network).value()), options);
 }
 
+Result<Zone> curve_shape_of(const ZoneCase& c, const ShapeOptions& options) {
+  auto network = curve_network_of(c);
+  if (!network) return network.error();
+  return compute_shape(std::make_shared<const CurveNetwork>(std::move(*network)), options);
+}
+
 std::optional<std::string> fault_in(const Zone& zone, const ZoneCase& c, const ShapeOptions& shape, double effort) {
   if (const auto wrong = zone.validate()) return "not valid: " + *wrong;
   verify::ZoneCheckOptions options;

@@ -53,6 +53,8 @@ std::optional<std::string> fault_in(const ZoneCase& c, double effort = 0.02);
 
 /// The zone of a case in some shape; the distance is the case's radius, or minus that.
 Result<Zone> shape_of(const ZoneCase& c, const ShapeOptions& options);
+/// The same of the case as lines with arcs.
+Result<Zone> curve_shape_of(const ZoneCase& c, const ShapeOptions& options);
 /// What is wrong with such a zone: validate(), then the verifier's checks; nothing if it is right.
 std::optional<std::string> fault_in(const Zone& zone, const ZoneCase& c, const ShapeOptions& options,
                                     double effort = 0.02);

@@ -1,0 +1,50 @@
+#include "arcs/outline.hpp"
+
+#include <cmath>
+
+#include "arcs/bodies.hpp"
+#include "arcs/body_union.hpp"
+#include "arcs/curve_locator.hpp"
+#include "zone/precision.hpp"
+
+namespace krepl::arcs {
+namespace {
+
+/// Another instance is as good as the first; one in which rounding made two decisions contradict each other is not.
+constexpr std::uint64_t instances = 4;
+
+}  // namespace
+
+Result<Outline> outline(const CurveNetwork& network, const ShapeOptions& options, const Context& context) {
+  const double radius = std::abs(options.distance);
+  const auto precision = zone::precision_for(network.extent(), network.straight().resolution(), radius, radius);
+  if (!precision) return precision.error();
+  for (std::uint64_t seed = 0;; ++seed) {
+    Outline result;
+    const Bodies bodies(network, radius, precision->effective_radius, precision->resolution, seed);
+    auto rings = body_union(bodies, precision->resolution, context, result.counters);
+    if (!rings) {
+      if (rings.error().code == ErrorCode::computation && seed + 1 < instances) continue;
+      return rings.error();
+    }
+    result.rings = std::move(*rings);
+    result.slack = 2 * bodies.enlargement();
+    return result;
+  }
+}
+
+zone::ShapedRings rings_by_polygons(const CurveNetwork& network, const zone::ShapedRings& rings, Point origin,
+                                    bool inside) {
+  const CurveLocator polygons(network);
+  const Point own = network.straight().origin(), shift{origin.x - own.x, origin.y - own.y};
+  zone::ShapedRings kept;
+  for (Index r = 0; r < rings.ring_count(); ++r) {
+    const auto first = rings.piece.begin() + rings.begin[r], last = rings.piece.begin() + rings.begin[r + 1];
+    if (polygons.is_inside({first->start.x + shift.x, first->start.y + shift.y}) != inside) continue;
+    kept.piece.insert(kept.piece.end(), first, last);
+    kept.close();
+  }
+  return kept;
+}
+
+}  // namespace krepl::arcs

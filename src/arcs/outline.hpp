@@ -1,0 +1,26 @@
+#pragma once
+
+#include "krepl/context.hpp"
+#include "krepl/curve_network.hpp"
+#include "krepl/error.hpp"
+#include "krepl/shape.hpp"
+#include "zone/shaped_rings.hpp"
+
+namespace krepl::arcs {
+
+/// Rings of the zone of all segments, arcs and points, and how far apart they are at least.
+struct Outline {
+  zone::ShapedRings rings;
+  double slack = 0;
+  ZoneCounters counters;
+};
+
+/// Of the distance's absolute value, and caps and joins.
+Result<Outline> outline(const CurveNetwork& network, const ShapeOptions& options, const Context& context);
+
+/// The rings that lie inside a polygon of the network, or those that do not. They keep a distance of the radius from
+/// its border, so any place of a ring decides. `origin` is that of the rings.
+zone::ShapedRings rings_by_polygons(const CurveNetwork& network, const zone::ShapedRings& rings, Point origin,
+                                    bool inside);
+
+}  // namespace krepl::arcs
