@@ -83,9 +83,7 @@ Status tell_ring_faults(const CurveNetwork& network, const std::string& in_name,
   return tell_faults(network, in_name, session);
 }
 
-bool takes_arcs(const ShapeOptions& shape) {
-  return shape.side == Side::both && shape.cap == Cap::round && shape.join == Join::round;
-}
+bool takes_arcs(const ShapeOptions& shape) { return shape.side == Side::both; }
 
 void add_shape_options(Verb& verb, ShapeArguments& shape) {
   verb.add_option("--cap", shape.cap, "Ends of lines: round, flat, square").type_name("NAME");

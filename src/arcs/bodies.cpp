@@ -28,23 +28,38 @@ Q turned(Q a, double angle) {
   return unit({a.x * c - a.y * s, a.x * s + a.y * c});
 }
 
+Q left_of(Q a) { return {-a.y, a.x}; }
+
 Border<quad> line(Q p, Q q, Key key) { return {false, false, key, p, q, {}, 0}; }
+Border<quad> arc(Q p, Q q, Q centre, quad radius, Key key) { return {true, false, key, p, q, centre, radius}; }
+
+constexpr Key inside{Key::Kind::inside, none};
+
+// Where a line turns by less, in radians, bevel, arc and mitre differ by less than 2^-43 R: the arc serves for all.
+// Where it turns back by all but this, it ends.
+constexpr double straight = 0x1p-20;
+
+bool is_round(const ShapeOptions& o) { return o.cap == Cap::round && o.join == Join::round; }
 
 }  // namespace
 
-Bodies::Bodies(const CurveNetwork& network, double nominal_radius, double effective_radius, double resolution,
-               std::uint64_t seed)
-    : network_(network),
+Bodies::Bodies(const CurveNetwork& network, const ShapeOptions& options, double nominal_radius,
+               double effective_radius, double resolution, std::uint64_t seed)
+    : options_(options),
+      network_(network),
       nominal_radius_(nominal_radius),
       effective_radius_(effective_radius),
       resolution_(resolution),
-      scale_(network.extent() + 2 * effective_radius),
+      scale_(network.extent() + 2 * effective_radius * (options.join == Join::mitre ? options.mitre_limit : 1.0)),
       vast_(0x1p6 * scale_),
       move_(0x1p-9 * (effective_radius - nominal_radius)),
       excess_(0x1p-6 * (effective_radius - nominal_radius)),
       seed_(seed) {
   for (const auto& arc : network.arcs()) courses_.push_back(course_of(arc));
-  list_bodies();
+  if (is_round(options))
+    list_round();
+  else
+    list_shaped();
 }
 
 Q Bodies::at(Index vertex) const {
@@ -65,6 +80,8 @@ Course Bodies::course_of(const CurveNetwork::Arc& arc) const {
   if (arc.start != arc.end && c.angle < 1) {
     const double chord = std::hypot(e.x - s.x, e.y - s.y);
     c.flat = chord / 2 * std::tan(c.angle / 4) <= 16 * enlargement();
+    // Caps and joins look at directions, too.
+    if (!is_round(options_)) c.flat = c.flat && c.angle * effective_radius_ <= excess_ / 4;
   }
   if (arc.start != arc.end && turn == 0) c.flat = true;
   if (c.flat) return c;
@@ -92,8 +109,12 @@ bool Bodies::ends_cover(Index segment) const {
   return double(dot(d, d)) <= 4 * excess_ * effective_radius_;
 }
 
+std::uint8_t Bodies::parts_of(const Course& c) const {
+  return std::uint8_t(std::clamp(std::ceil(c.angle / (M_PI / 2)), 1.0, 4.0));
+}
+
 /// In the order of their lower vertices, which follow the plane.
-void Bodies::list_bodies() {
+void Bodies::list_round() {
   const Network& straight = network_.straight();
   std::size_t s = 0, a = 0;
   const auto arcs = network_.arcs();
@@ -106,38 +127,212 @@ void Bodies::list_bodies() {
       if (c.flat) {
         specs_.push_back({Kind::chord, 0, 1, Index(a)});
       } else if (!ends_cover(c)) {
-        const auto parts = std::uint8_t(std::clamp(std::ceil(c.angle / (M_PI / 2)), 1.0, 4.0));
+        const auto parts = parts_of(c);
         for (std::uint8_t k = 0; k < parts; ++k) specs_.push_back({Kind::sector, k, parts, Index(a)});
       }
     }
   }
 }
 
-void Bodies::build_strip(Index a, Index b, Key key, quad width, Q shift, Body<quad>& out) const {
-  const Q p = at(a) + shift, q = at(b) + shift, n = width * right_of(unit(at(b) - at(a)));
-  out.add(line(p + n, q + n, key));
-  out.add(line(q + n, q - n, {Key::Kind::end, b}));
-  out.add(line(q - n, p - n, {key.kind, key.index + 1}));
-  out.add(line(p - n, p + n, {Key::Kind::end, a}));
+void Bodies::list_shaped() {
+  const Network& straight = network_.straight();
+  auto leaving = arms();
+  std::size_t s = 0, a = 0;
+  const auto arcs = network_.arcs();
+  for (Index v = 0; v < leaving.size(); ++v) {
+    if (network_.is_joint()[v]) add_bend(v, leaving[v]);
+    for (; s < straight.segments().size() && straight.segments()[s].a == v; ++s)
+      specs_.push_back({Kind::strip, 0, 1, Index(s)});
+    for (; a < arcs.size() && arcs[a].start == v; ++a) {
+      const Course& c = courses_[a];
+      if (c.flat) {
+        specs_.push_back({Kind::chord, 0, 1, Index(a)});
+        continue;
+      }
+      const auto parts = parts_of(c);
+      const bool goes_beyond = effective_radius_ - c.radius > resolution_ / 4;
+      for (std::uint8_t k = 0; k < parts; ++k) {
+        specs_.push_back({Kind::sector, k, parts, Index(a)});
+        if (goes_beyond) specs_.push_back({Kind::beyond, k, parts, Index(a)});
+      }
+    }
+  }
 }
 
-void Bodies::build_sector(const Spec& spec, quad outer, quad inner, Q shift, Body<quad>& out) const {
-  const Course& c = courses_[spec.index];
-  // Sectors of one arc reach over each other.
-  const double each = c.angle / spec.parts, over = each / 8;
-  const Q u = spec.part == 0 ? c.first : turned(c.first, spec.part * each - over);
-  const Q v = spec.part + 1 == spec.parts ? c.last : turned(c.first, (spec.part + 1) * each + over);
-  const Q centre = c.centre + shift;
-  const Key wall{Key::Kind::wall, spec.index};
-  out.add({true, false, {Key::Kind::outer, spec.index}, centre + outer * u, centre + outer * v, centre, outer});
-  if (!(inner > 0)) {
-    out.add(line(centre + outer * v, centre, wall));
-    out.add(line(centre, centre + outer * u, wall));
+/// Per vertex what leaves it.
+std::vector<std::vector<Bodies::Arm>> Bodies::arms() const {
+  const auto segments = network_.straight().segments();
+  std::vector<std::vector<Arm>> result(network_.straight().vertices().size());
+  const auto add = [&](Index from, Index to, Key::Kind kind, Index index) {
+    const Q d = unit(at(to) - at(from));
+    const Key right{kind, 2 * index}, left{kind, 2 * index + 1};
+    result[from].push_back({left, right, d});
+    result[to].push_back({right, left, quad(-1) * d});
+  };
+  for (Index s = 0; s < segments.size(); ++s) add(segments[s].a, segments[s].b, Key::Kind::side, s);
+  for (Index a = 0; a < courses_.size(); ++a) {
+    const Course& c = courses_[a];
+    if (c.flat) {
+      add(c.from, c.to, Key::Kind::chord, a);
+      continue;
+    }
+    const auto tangent = [&](Index place) { return Key{Key::Kind::tangent, 4 * a + place}; };
+    result[c.from].push_back({tangent(0), tangent(1), left_of(c.first)});
+    result[c.to].push_back({tangent(2), tangent(3), right_of(c.last)});
+  }
+  return result;
+}
+
+/// The body in the one gap above 180 degrees; at an end one for each square cap.
+void Bodies::add_bend(Index v, std::vector<Arm>& arms) {
+  const auto body = [&](Kind kind) { specs_.push_back({kind, 0, 1, Index(bends_.size() - 1)}); };
+  if (arms.empty()) {
+    bends_.push_back({v, {}, {}, inside, inside});
+    if (options_.cap == Cap::round) specs_.push_back({Kind::disk, 0, 1, v});
+    if (options_.cap == Cap::square) body(Kind::upright);
     return;
   }
-  out.add(line(centre + outer * v, centre + inner * v, wall));
-  out.add({true, true, {Key::Kind::inner, spec.index}, centre + inner * v, centre + inner * u, centre, inner});
-  out.add(line(centre + inner * u, centre + outer * u, wall));
+  const auto lower = [](Q d) { return d.y < 0 || (d.y == 0 && d.x < 0); };
+  std::sort(arms.begin(), arms.end(), [&](const Arm& a, const Arm& b) {
+    if (lower(a.direction) != lower(b.direction)) return lower(b.direction);
+    return cross(a.direction, b.direction) > 0;
+  });
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    const Arm &first = arms[i], &second = arms[(i + 1) % arms.size()];
+    const Q d = quad(-1) * first.direction, e = second.direction;  // the gap is on the right of this way
+    const quad turn = cross(d, e);
+    const bool around = i + 1 == arms.size() && turn == 0 && dot(d, e) < 0;  // all in exactly one direction
+    if (!(turn > 0) && !around) continue;
+    const double angle = around ? M_PI : std::atan2(double(turn), double(dot(d, e)));
+    bends_.push_back({v, d, e, first.left, second.right});
+    if (angle > M_PI - straight) {
+      if (options_.cap == Cap::round) body(Kind::cap);
+      if (options_.cap == Cap::square) add_squares(v, arms);
+    } else if (angle <= straight || options_.join == Join::round) {
+      body(Kind::join);
+    } else if (options_.join == Join::mitre && 1 <= options_.mitre_limit * std::cos(angle / 2) * (1 + 1e-14)) {
+      body(Kind::mitre);
+    } else {
+      body(Kind::bevel);
+    }
+    return;
+  }
+}
+
+void Bodies::add_squares(Index v, const std::vector<Arm>& arms) {
+  bends_.pop_back();
+  for (const Arm& arm : arms) {
+    const auto bend = Index(bends_.size());
+    const Q in = quad(-1) * arm.direction;
+    // The sides of segments go straight on.
+    const bool is_arc = arm.left.kind == Key::Kind::tangent;
+    bends_.push_back({v, in, arm.direction, is_arc ? Key{Key::Kind::square, 4 * bend} : arm.left,
+                      is_arc ? Key{Key::Kind::square, 4 * bend + 2} : arm.right});
+    specs_.push_back({Kind::square, 0, 1, bend});
+  }
+}
+
+/// How far walls at vertices are farther out than there, so that what is joined overlaps, and what touches merges.
+quad Bodies::reach(bool move) const { return move && !is_round(options_) ? excess_ : 0; }
+
+void Bodies::build_strip(Index a, Index b, Key key, Key end, quad width, Q shift, bool move, Body<quad>& out) const {
+  const Q d = unit(at(b) - at(a)), n = width * right_of(d);
+  const Q p = at(a) + shift - reach(move) * d, q = at(b) + shift + reach(move) * d;
+  out.add(line(p + n, q + n, key));
+  out.add(line(q + n, q - n, {end.kind, end.index + 1}));
+  out.add(line(q - n, p - n, {key.kind, key.index + 1}));
+  out.add(line(p - n, p + n, end));
+}
+
+void Bodies::build_sector(const Spec& spec, quad outer, quad inner, Q shift, bool move, Body<quad>& out) const {
+  const Course& c = courses_[spec.index];
+  const bool beyond = spec.kind == Kind::beyond;
+  // Sectors of one arc reach over each other.
+  const double each = c.angle / spec.parts, over = each / 8;
+  const bool first = spec.part == 0, last = spec.part + 1 == spec.parts;
+  const quad sign = beyond ? -1 : 1;
+  const Q u = sign * (first ? c.first : turned(c.first, spec.part * each - over));
+  const Q v = sign * (last ? c.last : turned(c.first, (spec.part + 1) * each + over));
+  const Key start = first ? Key{Key::Kind::wall, 2 * spec.index} : inside;
+  const Key end = last ? Key{Key::Kind::wall, 2 * spec.index + 1} : inside;
+  // The walls are lines along u and v, or farther out by as much as bodies reach into each other.
+  // A sector between others has both walls farther out if one is: its corner by the centre would else be no convex one.
+  const quad out_by = first || last ? reach(true) : 0, back = move ? out_by : 0;
+  const Q centre = c.centre + shift;
+  const auto on_start = [&](quad r) {
+    return centre + kernel::square_root((r - back) * (r + back)) * u + back * right_of(u);
+  };
+  const auto on_end = [&](quad r) {
+    return centre + kernel::square_root((r - back) * (r + back)) * v + back * left_of(v);
+  };
+  const Key::Kind circle = beyond ? Key::Kind::beyond : Key::Kind::outer;
+  out.add(arc(on_start(outer), on_end(outer), centre, outer, {circle, spec.index}));
+  if (inner > 0) {
+    out.add(line(on_end(outer), on_end(inner), end));
+    out.add({true, true, {Key::Kind::inner, spec.index}, on_end(inner), on_start(inner), centre, inner});
+    out.add(line(on_start(inner), on_start(outer), start));
+    return;
+  }
+  // Walls farther out do not meet in the centre. Not moved, only the direction of the line across it counts.
+  const quad wide = move ? 1 : outer / excess_;
+  const Q from = centre + wide * out_by * left_of(v), to = centre + wide * out_by * right_of(u);
+  out.add(line(on_end(outer), move ? from : centre, end));
+  if (out_by > 0) out.add(line(from, to, inside));
+  out.add(line(move ? to : centre, on_start(outer), start));
+}
+
+/// From the side before around the outside to the side after, and back just behind the vertex.
+void Bodies::build_bend(const Spec& spec, quad r, Q shift, bool move, Body<quad>& out) const {
+  const Bend& b = bends_[spec.index];
+  const Q v = at(b.vertex) + shift, d = b.in, e = b.out, n = right_of(d), o = right_of(e);
+  // Walls are this much farther back; sides begin there. Not moved, only lines and circles count.
+  const quad back = move ? excess_ : 0, side = move ? excess_ : r;
+  const quad height = spec.kind == Kind::join ? kernel::square_root((r - back) * (r + back)) : r;
+  const Q q1 = v + height * n - back * d, q2 = v + height * o + back * e;
+  if (spec.kind == Kind::join) {
+    out.add(arc(q1, q2, v, r, {Key::Kind::circle, b.vertex}));
+  } else if (spec.kind == Kind::mitre) {
+    const Q apex = v + (r / (1 + dot(n, o))) * (n + o);
+    out.add(line(v + r * n - side * d, apex, b.before));
+    out.add(line(apex, v + r * o + side * e, b.after));
+  } else {
+    out.add(line(v + r * n - side * d, v + r * n, b.before));
+    out.add(line(v + r * n, v + r * o, {Key::Kind::bevel, b.vertex}));
+    out.add(line(v + r * o, v + r * o + side * e, b.after));
+  }
+  // The base is so deep that it cuts both walls, however sharp the bend.
+  const Q t = unit(d + e), across = unit(n + o);
+  const quad c = dot(t, d), s = dot(across, d), deep = back * (1 - c / 2), wide = move ? (back - s * deep) / c : r;
+  const Q b1 = v - wide * t - deep * across, b2 = v + wide * t - deep * across;
+  out.add(line(q2, move ? b2 : v, inside));
+  out.add(line(b2, b1, inside));
+  out.add(line(move ? b1 : v, q1, inside));
+}
+
+void Bodies::build_end(const Spec& spec, quad r, Q shift, bool move, Body<quad>& out) const {
+  const auto corner = [&](Index k) { return Key{Key::Kind::square, 4 * spec.index + k}; };
+  const Bend& b = bends_[spec.index];
+  if (spec.kind == Kind::upright) {
+    const Q v = at(b.vertex) + shift;
+    const Q p[] = {v + Q{-r, -r}, v + Q{r, -r}, v + Q{r, r}, v + Q{-r, r}};
+    for (Index k = 0; k < 4; ++k) out.add(line(p[k], p[(k + 1) % 4], corner(k)));
+    return;
+  }
+  const Q v = at(b.vertex) + shift, d = b.in, n = right_of(d);
+  const quad back = move ? excess_ : 0, side = move ? excess_ : r;
+  if (spec.kind == Kind::cap) {
+    const quad height = kernel::square_root((r - back) * (r + back));
+    const Q p = v + height * n - back * d, q = v - height * n - back * d;
+    out.add(arc(p, q, v, r, {Key::Kind::circle, b.vertex}));
+    out.add(line(q, p, inside));
+    return;
+  }
+  const quad far = r + back;
+  const Q p = v + far * d + r * n, q = v + far * d - r * n;
+  out.add(line(v + r * n - side * d, p, b.before));
+  out.add(line(p, q, corner(1)));
+  out.add(line(q, v - r * n - side * d, b.after));
+  out.add(line(v - r * n - back * d, v + r * n - back * d, inside));
 }
 
 Body<quad> Bodies::build(Index body, quad radius, bool move) const {
@@ -151,26 +346,41 @@ Body<quad> Bodies::build(Index body, quad radius, bool move) const {
     case Kind::disk: {
       const quad r = radius + (move ? excess_ : 0) + more;
       const Q centre = at(spec.index) + shift, start{centre.x + r, centre.y};
-      out.add({true, false, {Key::Kind::circle, spec.index}, start, start, centre, r});
+      out.add(arc(start, start, centre, r, {Key::Kind::circle, spec.index}));
       break;
     }
     case Kind::strip: {
       const auto s = network_.straight().segments()[spec.index];
-      build_strip(s.a, s.b, {Key::Kind::side, 2 * spec.index}, radius + more, shift, out);
+      const Key side{Key::Kind::side, 2 * spec.index}, end{Key::Kind::end, 2 * spec.index};
+      build_strip(s.a, s.b, side, end, radius + more, shift, move, out);
       break;
     }
     case Kind::chord: {
       const auto& c = courses_[spec.index];
-      build_strip(c.from, c.to, {Key::Kind::chord, 2 * spec.index}, radius + more, shift, out);
+      const Key side{Key::Kind::chord, 2 * spec.index}, end{Key::Kind::flat_end, 2 * spec.index};
+      build_strip(c.from, c.to, side, end, radius + more, shift, move, out);
       break;
     }
     case Kind::sector: {
       const quad r = courses_[spec.index].radius;
       // A hole that is hardly one is filled; the same in both instances.
       const bool hole = r - effective_radius_ > resolution_ / 4;
-      build_sector(spec, r + radius + more, hole ? r - radius + less : 0, shift, out);
+      build_sector(spec, r + radius + more, hole ? r - radius + less : 0, shift, move, out);
       break;
     }
+    case Kind::beyond:
+      build_sector(spec, radius - courses_[spec.index].radius + more, 0, shift, move, out);
+      break;
+    case Kind::join:
+    case Kind::bevel:
+    case Kind::mitre:
+      build_bend(spec, radius + more, shift, move, out);
+      break;
+    case Kind::cap:
+    case Kind::square:
+    case Kind::upright:
+      build_end(spec, radius + more, shift, move, out);
+      break;
   }
   return out;
 }
@@ -186,6 +396,8 @@ kernel::Box Bodies::box(Index body) const {
     if (b.count == 1) {
       box.add(Point{double(border.c.x - border.radius), double(border.c.y - border.radius)});
       box.add(Point{double(border.c.x + border.radius), double(border.c.y + border.radius)});
+    } else if (specs_[body].kind == Kind::cap) {  // a little more than half a turn
+      more += double(border.radius) + excess_;
     } else {  // a sector is between the chords and the height of its outer arc above them
       const Vector<quad> chord = border.q - border.p;
       const double half = double(length(chord)) / 2, r = double(border.radius);
@@ -196,20 +408,34 @@ kernel::Box Bodies::box(Index body) const {
 }
 
 std::array<Index, 2> Bodies::ends(const Key& key) const {
+  const auto one = [](Index vertex) { return std::array{vertex, vertex}; };
+  const auto end_of = [&](const Course& c, bool last) { return one(last ? c.to : c.from); };
   switch (key.kind) {
     case Key::Kind::circle:
-      return {key.index, key.index};
+    case Key::Kind::bevel:
+      return one(key.index);
+    case Key::Kind::square:
+      return one(bends_[key.index >> 2].vertex);
     case Key::Kind::side: {
       const auto s = network_.straight().segments()[key.index >> 1];
       return {s.a, s.b};
     }
+    case Key::Kind::end: {
+      const auto s = network_.straight().segments()[key.index >> 1];
+      return one((key.index & 1u) != 0 ? s.b : s.a);
+    }
     case Key::Kind::chord:
       return {courses_[key.index >> 1].from, courses_[key.index >> 1].to};
+    case Key::Kind::flat_end:
+    case Key::Kind::wall:
+      return end_of(courses_[key.index >> 1], (key.index & 1u) != 0);
+    case Key::Kind::tangent:
+      return end_of(courses_[key.index >> 2], (key.index & 2u) != 0);
     case Key::Kind::outer:
     case Key::Kind::inner:
+    case Key::Kind::beyond:
       return {courses_[key.index].from, courses_[key.index].to};
-    case Key::Kind::wall:
-    case Key::Kind::end:
+    case Key::Kind::inside:
       break;
   }
   return {none, none};

@@ -159,20 +159,35 @@ Zone::Piece as_piece(const Bodies& bodies, const Item& item, Q start, Q end) {
       p.from_vertex = true;
       break;
     case Key::Kind::outer:
-    case Key::Kind::inner: {
+    case Key::Kind::inner:
+    case Key::Kind::beyond: {
       const Course& c = bodies.course(item.key.index);
+      const quad r = bodies.nominal_radius();
       p.kind = Zone::Kind::arc;
       p.center = rounded(c.centre);
       p.clockwise = item.key.kind == Key::Kind::inner;
-      p.radius = double(p.clockwise ? c.radius - bodies.nominal_radius() : c.radius + bodies.nominal_radius());
+      p.radius = double(p.clockwise ? c.radius - r : item.key.kind == Key::Kind::outer ? c.radius + r : r - c.radius);
       p.from_arc = true;
       break;
     }
-    case Key::Kind::wall:
+    case Key::Kind::tangent:
+      p.source = item.key.index >> 2;
       p.from_arc = true;
-      p.role = Zone::Role::end;
+      break;
+    case Key::Kind::bevel:
+      p.from_vertex = true;
+      p.role = Zone::Role::bevel;
       break;
     case Key::Kind::end:
+    case Key::Kind::flat_end:
+    case Key::Kind::wall:
+    case Key::Kind::square:
+      p.source = bodies.ends(item.key)[0];
+      p.from_vertex = true;
+      p.role = Zone::Role::end;
+      break;
+    case Key::Kind::inside:  // covered, but for what is contracted
+      p.source = 0;
       p.from_vertex = true;
       p.role = Zone::Role::end;
       break;

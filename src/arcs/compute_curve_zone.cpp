@@ -58,8 +58,6 @@ Result<Zone> compute_shape(std::shared_ptr<const CurveNetwork> network, const Sh
   if (Status options = shape::check_options(network->straight(), o); !options) return options.error();
   if (o.side != Side::both)
     return Error{ErrorCode::usage, "one-sided zones take no arcs", "", "replace the arcs by chords"};
-  if (o.cap != Cap::round || o.join != Join::round)
-    return Error{ErrorCode::usage, "zones of arcs have round caps and joins", "", "replace the arcs by chords"};
   return arcs::two_sided(std::move(network), o, context);
 }
 

@@ -21,13 +21,15 @@ Result<Outline> outline(const CurveNetwork& network, const ShapeOptions& options
   if (!precision) return precision.error();
   for (std::uint64_t seed = 0;; ++seed) {
     Outline result;
-    const Bodies bodies(network, radius, precision->effective_radius, precision->resolution, seed);
+    const Bodies bodies(network, options, radius, precision->effective_radius, precision->resolution, seed);
     auto rings = body_union(bodies, precision->resolution, context, result.counters);
     if (!rings) {
       if (rings.error().code == ErrorCode::computation && seed + 1 < instances) continue;
       return rings.error();
     }
     result.rings = std::move(*rings);
+    // What is beside an arc beyond its centre touches what is on this side of it there.
+    result.rings.touch = bodies.go_beyond_centres();
     result.slack = 2 * bodies.enlargement();
     return result;
   }
@@ -38,6 +40,7 @@ zone::ShapedRings rings_by_polygons(const CurveNetwork& network, const zone::Sha
   const CurveLocator polygons(network);
   const Point own = network.straight().origin(), shift{origin.x - own.x, origin.y - own.y};
   zone::ShapedRings kept;
+  kept.touch = rings.touch;
   for (Index r = 0; r < rings.ring_count(); ++r) {
     const auto first = rings.piece.begin() + rings.begin[r], last = rings.piece.begin() + rings.begin[r + 1];
     if (polygons.is_inside({first->start.x + shift.x, first->start.y + shift.y}) != inside) continue;

@@ -11,14 +11,32 @@ namespace {
 
 using kernel::Box;
 
-Body<double> rounded(const Body<quad>& body) {
+Body<double> rounded(const Body<quad>& body, double scale) {
   Body<double> out;
   const auto round = [](Vector<quad> v) { return Vector<double>{double(v.x), double(v.y)}; };
   for (int k = 0; k < body.count; ++k) {
     const auto& b = body.border[std::size_t(k)];
-    out.add({b.arc, b.clockwise, b.key, round(b.p), round(b.q), round(b.c), double(b.radius)});
+    const bool fine = body.count > 1 && double(length(b.q - b.p)) < 0x1p-40 * scale;
+    out.add({b.arc, b.clockwise, b.key, round(b.p), round(b.q), round(b.c), double(b.radius), fine});
   }
   return out;
+}
+
+/// The same for covering others, where only lines and circles count: those that are short beside the body would be
+/// turned by rounding, and are made longer.
+Body<double> lengthened(Body<quad> body, double scale) {
+  double extent = 0;
+  for (int k = 0; k < body.count; ++k)
+    extent = std::max(extent, double(length(body.border[std::size_t(k)].p - body.border[0].p)));
+  for (int k = 0; k < body.count; ++k) {
+    auto& b = body.border[std::size_t(k)];
+    const Vector<quad> d = b.q - b.p;
+    const double l = double(length(d));
+    if (b.arc || !(l > 0) || l > extent / 8) continue;
+    const quad more = extent / l;
+    b.p = b.p - more * d, b.q = b.q + more * d;
+  }
+  return rounded(body, scale);
 }
 
 /// Holds the places of a border between two parameters.
@@ -39,8 +57,9 @@ Box box_of(const Border<Real>& b, const Path<Real>& path, double from, double to
 
 class Worker {
  public:
-  Worker(const Bodies& bodies, const std::vector<Body<double>>& rounded, const kernel::BoxTree& tree)
-      : bodies_(bodies), rounded_(rounded), tree_(tree), error_(0x1p-44 * bodies.scale()) {}
+  Worker(const Bodies& bodies, const std::vector<Body<double>>& own, const std::vector<Body<double>>& rounded,
+         const kernel::BoxTree& tree)
+      : bodies_(bodies), own_(own), rounded_(rounded), tree_(tree), error_(0x1p-44 * bodies.scale()) {}
 
   void examine(Index body, std::vector<Uncovered>& out, ZoneCounters& counters) {
     const int count = rounded_[body].count;
@@ -63,16 +82,16 @@ class Worker {
   /// By bodies shrunk by what rounding and the moves may amount to. Leaves in candidates_ what may cover the rest.
   bool is_covered(Index body, int k, ZoneCounters& counters) {
     candidates_.clear(), used_.clear();
-    if (bodies_.is_vast(body)) {
+    if (bodies_.is_vast(body) || own_[body].border[std::size_t(k)].fine) {
       const Body<quad> own = bodies_.moved(body);
       const Border<quad>& border = own.border[std::size_t(k)];
       const Path<quad> path(border);
-      // Long as its radius is, a border of a vast circle is short in angle.
+      // Long as its radius is, a border of a vast circle is short in angle; a fine one is short anyhow.
       collect(body, box_of(border, path, 0, double(path.end()), 4 * error_));
       counters.candidates += candidates_.size();
       return false;
     }
-    const Border<double>& border = rounded_[body].border[std::size_t(k)];
+    const Border<double>& border = own_[body].border[std::size_t(k)];
     const Path<double> path(border);
     open_.assign(1, {0, path.end()});
     for (const Index other : recent_)
@@ -206,7 +225,7 @@ class Worker {
   }
 
   const Bodies& bodies_;
-  const std::vector<Body<double>>& rounded_;
+  const std::vector<Body<double>>&own_, &rounded_;  // as paths, and as what covers
   const kernel::BoxTree& tree_;
   double error_;
   std::array<Index, 8> recent_{none, none, none, none, none, none, none, none};
@@ -222,13 +241,15 @@ class Worker {
 std::vector<Uncovered> uncovered_stretches(const Bodies& bodies, const Context& context, ZoneCounters& counters) {
   constexpr std::size_t block = 1 << 8;
   const std::size_t n = bodies.count();
-  std::vector<Body<double>> all(n);
+  std::vector<Body<double>> own(n), all(n);
   std::vector<Box> boxes(n);
   Context quiet;
   quiet.threads = context.threads;
   kernel::parallel_blocks(quiet, n, block, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      all[i] = rounded(bodies.moved(Index(i)));
+      const Body<quad> body = bodies.moved(Index(i));
+      own[i] = rounded(body, bodies.scale());
+      all[i] = lengthened(body, bodies.scale());
       boxes[i] = bodies.box(Index(i));
     }
   });
@@ -241,7 +262,7 @@ std::vector<Uncovered> uncovered_stretches(const Bodies& bodies, const Context& 
   kernel::Progress progress(context, n);
   const bool done = kernel::parallel_blocks(context, n, block, [&](std::size_t first, std::size_t last) {
     Part& part = parts[first / block];
-    Worker worker(bodies, all, tree);
+    Worker worker(bodies, own, all, tree);
     for (std::size_t i = first; i < last && !context.cancelled(); ++i)
       worker.examine(Index(i), part.stretches, part.counters);
     progress.add(last - first);

@@ -8,11 +8,11 @@
 
 namespace krepl::arcs {
 
-/// Borders by number: four to a body.
+/// Borders by number: eight to a body.
 using BorderId = std::uint64_t;
-inline BorderId border_id(Index body, int k) { return BorderId{body} << 2 | BorderId(k); }
-inline Index body_of(BorderId id) { return Index(id >> 2); }
-inline std::size_t place_of(BorderId id) { return std::size_t(id & 3); }
+inline BorderId border_id(Index body, int k) { return BorderId{body} << 3 | BorderId(k); }
+inline Index body_of(BorderId id) { return Index(id >> 3); }
+inline std::size_t place_of(BorderId id) { return std::size_t(id & 7); }
 
 /// A stretch of a body's border that no other body covers, between the borders it comes from and goes on upon.
 struct Uncovered {

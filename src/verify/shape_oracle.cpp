@@ -176,7 +176,8 @@ void ShapeOracle::in_corner(const Corner& c, Vec p, std::vector<Depth>& out) con
     const Real beyond = -dot(v, c.arms[0]);
     if (question_.cap == Cap::round) out.push_back({radius_ - length(v), beyond});
     if (question_.cap == Cap::square)
-      out.push_back({radius_ - std::max(beyond, std::abs(cross(c.arms[0], v))), beyond});
+      for (const Vec& arm : c.arms)
+        out.push_back({radius_ - std::max(-dot(v, arm), std::abs(cross(arm, v))), -dot(v, arm)});
     return;
   }
   for (std::size_t i = 0; i < c.arms.size(); ++i) {

@@ -357,7 +357,12 @@ Result<Nesting> nest(const Instance& in, const Rings& rings, const Context& cont
 
 Result<Nesting> nest(const ShapedRings& rings, double radius, double slack, const Context& context) {
   const ShapedPicture picture(rings, radius);
-  return rings.touch ? nest_touching(picture, slack, context) : nest_picture(picture, slack, context);
+  if (rings.touch) {
+    // A ring that is narrower than the slack may seem to lie in none; the other way it counts as near enough.
+    auto nesting = nest_touching(picture, slack, context);
+    if (nesting.ok()) return nesting;
+  }
+  return nest_picture(picture, slack, context);
 }
 
 Rings drop_rings_inside_polygons(const Network& network, Rings rings) {

@@ -132,6 +132,74 @@ TEST(CurveShapes, ShrunkPolygonsAndRings) {
   EXPECT_GT(double(split), 10 * effort());
 }
 
+/// Known areas, each also by a formula.
+TEST(CurveShape, CapsAndJoins) {
+  const auto area = [](const InputPart& part, Cap cap, Join join = Join::round, double radius = 1) {
+    ShapeOptions o;
+    o.distance = radius, o.cap = cap, o.join = join;
+    return checked({{part}, radius}, o).area();
+  };
+  const InputPart half = curve({{5, 0}, {0, 5}, {-5, 0}}, {1});
+  EXPECT_NEAR(area(half, Cap::flat), 10 * M_PI, 1e-10);
+  EXPECT_NEAR(area(half, Cap::square), 10 * M_PI + 4, 1e-10);
+  EXPECT_NEAR(area(half, Cap::round, Join::mitre), 11 * M_PI, 1e-10);
+  EXPECT_NEAR(area(half, Cap::flat, Join::round, 6), (121 + 1) * M_PI / 2, 1e-10);  // also beyond the centre
+  // A half circle and a line that leaves it at a right angle, outwards.
+  const InputPart corner = curve({{5, 0}, {0, 5}, {-5, 0}, {-15, 0}}, {1});
+  const double straight = 10 * M_PI + 20;
+  // The corner of side 1 is there twice, less what is between the arc of 4 or 6 and its tangent.
+  const double twice = area(corner, Cap::flat, Join::bevel);
+  EXPECT_NEAR(area(corner, Cap::flat, Join::mitre), twice + 0.5, 1e-10);
+  EXPECT_NEAR(area(corner, Cap::flat, Join::round), twice + M_PI / 4 - 0.5, 1e-10);
+  EXPECT_LT(twice, straight);
+  EXPECT_NEAR(area(corner, Cap::square, Join::bevel), twice + 4, 1e-10);
+  // Where a line runs smoothly into an arc nothing shows of the joint.
+  const InputPart smooth = curve({{-4, 0}, {0, 0}, {3, 3}, {0, 6}, {-4, 6}}, {2});
+  for (const Join join : {Join::round, Join::bevel, Join::mitre})
+    EXPECT_NEAR(area(smooth, Cap::flat, join), 2 * (8 + 3 * M_PI), 1e-10);
+}
+
+TEST(CurveShapes, CapsAndJoinsOfEveryFamily) {
+  std::mt19937_64 random(seed() + 2);
+  for (int f = 0; f < int(CurveFamily::count); ++f) {
+    for (int k = 0; k < int(25 * effort()); ++k) {
+      const ZoneCase c = random_curves(CurveFamily(f), random);
+      ShapeOptions o = at(c.radius);
+      do {
+        o.cap = Cap(random() % 3), o.join = Join(random() % 3);
+      } while (o.cap == Cap::round && o.join == Join::round);
+      o.mitre_limit = 1 + double(random() % 40) / 8;
+      SCOPED_TRACE(std::string(name(CurveFamily(f))) + ": " + text(c) + " " + text(o));
+      const auto zone = curve_shape_of(c, o);
+      if (!zone && zone.error().code == ErrorCode::usage) continue;  // an arc around the whole world
+      EXPECT_TRUE(zone.ok()) << zone.error().text();
+      if (!zone) continue;
+      const auto fault = fault_in(*zone, c, o);
+      EXPECT_FALSE(fault.has_value()) << *fault;
+    }
+  }
+}
+
+/// Caps and joins without arcs are those of the engine for segments.
+TEST(CurveShapes, CapsAndJoinsOfLinesAreThoseOfLines) {
+  std::mt19937_64 random(seed() + 3);
+  for (int f = 0; f < int(Family::count); ++f) {
+    for (int k = 0; k < int(12 * effort()); ++k) {
+      std::vector<std::uint8_t> bytes(3 + random() % 40);
+      for (auto& b : bytes) b = std::uint8_t(random());
+      const ZoneCase c = decode(Family(f), bytes);
+      ShapeOptions o = at(c.radius);
+      o.cap = Cap(random() % 3), o.join = Join(1 + random() % 2);
+      SCOPED_TRACE(text(c) + " " + text(o));
+      const auto lines = shape_of(c, o), curves = curve_shape_of(c, o);
+      ASSERT_EQ(lines.ok(), curves.ok()) << (curves.ok() ? lines : curves).error().text();
+      if (!lines) continue;
+      const double tolerance = std::max(1e-9 * lines->scale(), 64 * lines->network().resolution());
+      EXPECT_NEAR(curves->area(), lines->area(), tolerance * (lines->perimeter() + curves->perimeter()));
+    }
+  }
+}
+
 /// Rings without arcs come out as those of the engine for segments.
 TEST(CurveShapes, WithoutArcsAreThoseOfLines) {
   std::mt19937_64 random(seed() + 1);

@@ -137,6 +137,13 @@ class Arcs(support.CliTest):
         done = self.succeed("buffer", "in.wkt", "out.gpkg", "--radius", -6)
         self.assertIn("note: nothing is left at radius -6", done.stderr)
 
+    def test_caps_and_joins(self):
+        side = 2 * R * 10 * PI
+        for options, area in ((("--cap", "flat"), side), (("--cap", "square"), side + 4 * R * R),
+                              (("--join", "mitre"), side + PI * R * R)):
+            with self.subTest(options=options):
+                self.assertAlmostEqual(self.kept(HALF, *options).area, area, delta=1e-9 * area)
+
     def test_faults_of_rings(self):
         self.write("in.wkt", f"MULTISURFACE (CURVEPOLYGON ({CIRCLE}), CURVEPOLYGON (CIRCULARSTRING (5 0, 35 0, 5 0)))\n")
         done = self.succeed("buffer", "in.wkt", "out.wkt", "--radius", -1)
