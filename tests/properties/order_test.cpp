@@ -30,8 +30,8 @@ double tolerance(const Zone& zone, const Obstacle& obstacle) {
 /// Every point of the inner zone's boundary lies in the outer zone, or within `slack` of its boundary.
 void assert_inside(const Zone& inner, const Obstacle& inner_input, const Zone& outer, const Obstacle& outer_input,
                    double slack) {
-  const Boundary a(plain(inner), inner_input, inner.radius(), tolerance(inner, inner_input));
-  const Boundary b(plain(outer), outer_input, outer.radius(), tolerance(outer, outer_input));
+  const Boundary a(plain(inner), inner_input, {inner.radius(), tolerance(inner, inner_input)});
+  const Boundary b(plain(outer), outer_input, {outer.radius(), tolerance(outer, outer_input)});
   for (const auto& curve : a.curves().items())
     for (const long double t : {0.0L, 0.31L, 0.77L}) {
       const Vec p = curve.at(t);
