@@ -272,9 +272,12 @@ Real Envelope<Real>::locate(const Line& line, Real t0, Index l0, Real t1, Index 
     if (m == a || m == b) break;
     (winner(line.point(m), both, false) == l0 ? a : b) = m;  // where rounding decides, it may
   }
-  // Where the one ends before the other begins there is a gap between two walls, if too narrow to show.
-  const bool is_gap =
-      l0 != none && l1 != none && !patches_.contains(l0, line.point(b)) && !patches_.contains(l1, line.point(b));
+  // Where the one ends before the other begins there is a gap between two walls, if too narrow to show, or a patch that is as high
+  // as both.
+  const auto is_gap_at = [&](Point p) {
+    return !patches_.contains(l0, p) && !patches_.contains(l1, p) && (is_beyond_wall(l0, p) || is_beyond_wall(l1, p));
+  };
+  const bool is_gap = l0 != none && l1 != none && is_gap_at(line.point(b));
   how = is_gap ? Meeting::rim : meeting(l0, l1, line.point((a + b) / 2));
   return a + (b - a) / 2;
 }
