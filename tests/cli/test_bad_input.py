@@ -90,7 +90,7 @@ class BadInput(support.CliTest):
         self.write("arcs.wkt", "POINT (0 0)\nCIRCULARSTRING (0 0, 1 1, 2 0)\n")
         self.fail_with(1, "arcs.wkt: arcs of the input cannot stay arcs here, line 2; give "
                        "--arc-error LENGTH for chords in their place that deviate by no more",
-                       "buffer", "arcs.wkt", "out.wkt", "--radius", "1", "--cap", "flat", output="out.wkt")
+                       "buffer", "arcs.wkt", "out.wkt", "--radius", "1", "--side", "left", output="out.wkt")
 
     def test_surfaces_in_space(self):
         self.bad_wkt("TIN (((0 0 0, 0 0 1, 0 1 0, 0 0 0)))\n",
