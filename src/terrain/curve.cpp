@@ -101,13 +101,7 @@ Point3 project_to_valley(const Terrain& terrain, double radius, const Surface::E
                          double* sine = nullptr) {
   const auto a = contact_of<Real>(terrain, edge.feature[0]), b = contact_of<Real>(terrain, edge.feature[1]);
   const Real precision = 2 * std::numeric_limits<Real>::epsilon();
-  Point3 start = near;
-  const Vector<Real> normals = offset(a, radius, Vector<Real>(near)).gradient + offset(b, radius, Vector<Real>(near)).gradient;
-  if (dot(normals, normals) < Real(0.25)) {
-    for (const Surface::Index f : edge.feature)
-      start.z = std::max(start.z, height(contact_of(terrain, f), radius, near).z);
-  }
-  const auto solve = [&](bool aside) {
+  const auto solve = [&](bool aside, Point3 start) {
     Vector<Real> p(start);
     for (int i = 0; i < 20; ++i) {
       const Offset<Real> f = offset(a, radius, p), g = offset(b, radius, p);
@@ -124,8 +118,13 @@ Point3 project_to_valley(const Terrain& terrain, double radius, const Surface::E
     return p;
   };
   const auto is_near = [&](Vector<Real> p) { return length(p - Vector<Real>(near)) < reach; };
-  Vector<Real> p = solve(true);
-  if (!is_near(p)) p = solve(false);
+  Vector<Real> p = solve(true, near);
+  if (!is_near(p)) p = solve(false, near);
+  if (!is_near(p)) {
+    Point3 above = near;
+    for (const Surface::Index f : edge.feature) above.z = std::max(above.z, height(contact_of(terrain, f), radius, near).z);
+    p = solve(true, above);
+  }
   return is_near(p) ? Point3(p) : near;
 }
 
