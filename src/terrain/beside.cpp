@@ -108,25 +108,26 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
     return over > noise_ || (allowed > 0 && over >= -allowed) || (over >= -noise_ && precedes(upper, lower));
   };
   const Real rise = k.q - c.q;
-  bool hidden = true;
-  Real level_off = endless, aside_off = endless;  // level but for what it grows by along the lower edge, and the last term
-  const Real growth = k.m * (k.gx * c.gx + k.gy * c.gy) - c.m;
-  for (int i = 0; i < 4; ++i) {
-    const Real level = axis_height(upper, corner[i]) - axis_height(lower, corner[i]);
-    for (const Real s : slope) {
-      const Real aside = c.q * apart[i] * s;
-      for (const Real u : up) hidden = hidden && is_enough(level + rise * u + aside);
-      aside_off = std::min(aside_off, aside);
-    }
-    level_off = std::min(level_off, level - growth * along(corner[i]));
-  }
-  if (hidden || c.m == 0) return hidden;
+  Real level[4];
+  for (int i = 0; i < 4; ++i) level[i] = axis_height(upper, corner[i]) - axis_height(lower, corner[i]);
+  const auto is_hidden_at = [&](int i) {
+    return std::all_of(slope, slope + 2, [&](Real s) {
+      return std::all_of(up, up + 2, [&](Real u) { return is_enough(level[i] + rise * u + c.q * apart[i] * s); });
+    });
+  };
+  if (is_hidden_at(0) && is_hidden_at(1) && is_hidden_at(2) && is_hidden_at(3)) return true;
+  if (c.m == 0) return false;
   // Near a wall both grow with the distance from a vertex: what is touched tells how they do so together.
   struct Place {
     Real along, up;
   };
   std::vector<Place> part{{first, up[0]}, {last, up[0]}, {last, up[1]}, {first, up[1]}};
-  const Real beyond = absolute(lean) * slack;
+  const Real growth = k.m * (k.gx * c.gx + k.gy * c.gy) - c.m, beyond = absolute(lean) * slack;
+  Real level_off = endless, aside_off = endless;  // least of the level but for that growth, and of the last term
+  for (int i = 0; i < 4; ++i) {
+    level_off = std::min(level_off, level[i] - growth * along(corner[i]));
+    for (const Real s : slope) aside_off = std::min(aside_off, c.q * apart[i] * s);
+  }
   for (const Real sign : {Real(1), Real(-1)}) {
     clip_polygon(part, [&](const Place& p) {
       const Real touched = p.along + lean * p.up;

@@ -94,7 +94,7 @@ Height height(const Contact<double>& c, double radius, Point3 p) {
 /// Newton's method towards the curve where both distances are R, by the shortest way: along the mean of the two
 /// normals, and along their difference as far as rounding lets that be told and no farther than `reach`. Where the
 /// surfaces all but touch along a stretch, the curve is known across it no better than that. Between two walls the mean of
-/// the normals is nothing: from there the way begins on the higher surface. `sine`, if wanted: of the angle between the two
+/// the normals is nothing: where that leads nowhere the way begins on the higher surface. `sine`, if wanted: of the angle between the two
 /// surfaces there.
 template <class Real>
 Point3 project_to_valley(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 near, double reach,
