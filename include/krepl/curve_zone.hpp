@@ -23,7 +23,8 @@ Result<Zone> compute_zone(std::shared_ptr<const CurveNetwork> network, const Zon
                           const Context& context = {});
 
 /// The same in one of the shapes of krepl/shape.hpp, as compute_shape of a Network makes them, without chords: caps and
-/// joins (what is straight beside an arc goes on beyond its centre if the radius is more), shrunk polygons and rings (Zone::Role::input: along the input's own segments and arcs). With the defaults and a positive
+/// joins (what is straight beside an arc goes on beyond its centre if the radius is more), shrunk polygons and rings
+/// (Zone::Role::input: along the input's own segments and arcs). With the defaults and a positive
 /// distance the same as compute_zone. Polygons of one feature count by the even-odd rule; where a feature's sides run
 /// along each other within 2^-46 of the extent, an even number of them is no border.
 ///

@@ -6,6 +6,7 @@
 
 #include "arcs/feature_rings.hpp"
 #include "krepl/curve_zone.hpp"
+#include "shape/rings_by_feature.hpp"
 #include "zone/arc_turn.hpp"
 
 namespace krepl {
@@ -106,7 +107,7 @@ class RingCheck {
 
 Result<std::vector<RingFault>> check_rings(const CurveNetwork& network, const Context& context) {
   std::vector<RingFault> faults;
-  for (const auto& [feature, rings] : arcs::rings_by_feature(network)) {
+  for (const auto& [feature, rings] : shape::rings_by_feature(network.straight())) {
     const auto f = arcs::take_apart(network, rings, context);
     if (!f) return f.error();
     arcs::RingCheck(network, *f, feature).run(faults);

@@ -2,63 +2,41 @@
 #include "arcs/polygon_border.hpp"
 #include "krepl/curve_zone.hpp"
 #include "shape/check_options.hpp"
-#include "zone/assembly.hpp"
+#include "shape/two_sided.hpp"
+#include "zone/precision.hpp"
 
 namespace krepl {
 namespace arcs {
 namespace {
 
-Result<Zone> round_zone(std::shared_ptr<const CurveNetwork> network, double radius, const Context& context) {
-  ShapeOptions round;
-  round.distance = radius;
-  auto found = outline(*network, round, context);
-  if (!found) return found.error();
-  if (network->straight().has_polygons())
-    found->rings = rings_by_polygons(*network, found->rings, network->straight().origin(), false);
-  return ZoneAssembly::finish(std::move(network), radius, std::move(found->rings), found->slack, found->counters,
-                              context);
-}
-
-/// As shape::two_sided of a Network.
-Result<Zone> two_sided(std::shared_ptr<const CurveNetwork> network, const ShapeOptions& o, const Context& context) {
-  std::shared_ptr<const CurveNetwork> base = network;
-  const bool inward = o.distance < 0;
-  if (inward) {
-    if (Status shrinkable = shape::check_shrinkable(network->straight()); !shrinkable) return shrinkable.error();
-    auto border = border_network(network, context);
-    if (!border) return border.error();
-    if (*border == nullptr) return ZoneAssembly::finish(network, o.distance, {}, 0, {}, context);
-    base = std::move(*border);
-  }
-  auto found = outline(*base, o, context);
-  if (!found) return found.error();
-  zone::ShapedRings rings = std::move(found->rings);
-  if (network->straight().has_polygons())
-    rings = rings_by_polygons(*network, rings, base->straight().origin(), inward);
-  if (o.ring) {
-    auto border = union_border(*network, *base, context);
-    if (!border) return border.error();
-    // Outwards the zone is what lies between its rings and the border, inwards the same from the other side.
-    rings.append(inward ? *border : zone::reversed(*border));
-  } else if (inward) {
-    rings = zone::reversed(rings);
-  }
-  return ZoneAssembly::finish(std::move(base), o.distance, std::move(rings), found->slack, found->counters, context);
-}
+struct Curves {
+  using Network = CurveNetwork;
+  static const krepl::Network& straight(const Network& network) { return network.straight(); }
+  static constexpr auto border_network = arcs::border_network;
+  static constexpr auto union_border = arcs::union_border;
+  static constexpr auto outline = arcs::outline;
+  static constexpr auto rings_by_polygons = arcs::rings_by_polygons;
+};
 
 }  // namespace
 }  // namespace arcs
 
 Result<Zone> compute_zone(std::shared_ptr<const CurveNetwork> network, const ZoneOptions& options,
                           const Context& context) {
-  return arcs::round_zone(std::move(network), options.radius, context);
+  // A negative radius is none here, though it is a shape.
+  const auto precision =
+      zone::precision_for(network->extent(), network->straight().resolution(), options.radius, options.radius);
+  if (!precision) return precision.error();
+  ShapeOptions round;
+  round.distance = options.radius;
+  return shape::two_sided<arcs::Curves>(std::move(network), round, context);
 }
 
 Result<Zone> compute_shape(std::shared_ptr<const CurveNetwork> network, const ShapeOptions& o, const Context& context) {
   if (Status options = shape::check_options(network->straight(), o); !options) return options.error();
   if (o.side != Side::both)
     return Error{ErrorCode::usage, "one-sided zones take no arcs", "", "replace the arcs by chords"};
-  return arcs::two_sided(std::move(network), o, context);
+  return shape::two_sided<arcs::Curves>(std::move(network), o, context);
 }
 
 }  // namespace krepl

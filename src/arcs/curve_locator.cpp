@@ -4,14 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/odd_ones.hpp"
 #include "model/arc_circle.hpp"
+#include "zone/ray_crossing.hpp"
 
 namespace krepl::arcs {
-namespace {
-
-double cross(Point o, Point p, Point q) { return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x); }
-
-}  // namespace
 
 CurveLocator::CurveLocator(const CurveNetwork& network) : sides_(sides_of(network)), tree_(boxes_of(sides_)) {}
 
@@ -61,20 +58,11 @@ std::vector<kernel::Box> CurveLocator::boxes_of(const std::vector<Side>& sides) 
   return boxes;
 }
 
-/// True if the ray from a place to the left crosses the side an odd number of times: the chord, and once more where the
-/// place is between chord and arc.
 bool CurveLocator::is_crossed(const Side& s, Point from) {
-  // Places on the chord count as left of it, so that it does not matter which way round it runs; and as above a level one.
-  const double turn = cross(s.p, s.q, from);
-  const bool upward = s.p.y < s.q.y;
-  const bool chord = (s.p.y <= from.y) != (s.q.y <= from.y) && (upward ? turn < 0 : turn > 0);
-  if (!s.arc) return chord;
+  if (!s.arc) return zone::ray_crosses_segment(s.p, s.q, from);
   const Point v{from.x - s.p.x, from.y - s.p.y}, w = s.to_centre;
   const bool in_circle = v.x * (v.x - 2 * w.x) + v.y * (v.y - 2 * w.y) < 0;
-  // A left turn bulges to the right of its chord.
-  const bool right = turn < 0 || (turn == 0 && (s.p.y == s.q.y ? s.q.x < s.p.x : !upward));
-  const bool beyond = s.p == s.q || s.left == right;
-  return chord != (in_circle && beyond);
+  return zone::ray_crosses_arc(s.p, s.q, s.left, in_circle, from);
 }
 
 bool CurveLocator::is_inside(Point p) const {
@@ -84,12 +72,8 @@ bool CurveLocator::is_inside(Point p) const {
     for (std::size_t i = box * chunk; i < std::min(sides_.size(), (box + 1) * chunk); ++i)
       if (is_crossed(sides_[i], p)) features.push_back(sides_[i].feature);
   });
-  std::sort(features.begin(), features.end());
-  for (std::size_t i = 0, j = 0; i < features.size(); i = j) {
-    while (j < features.size() && features[j] == features[i]) ++j;
-    if ((j - i) % 2 == 1) return true;
-  }
-  return false;
+  kernel::keep_odd_ones(features);
+  return !features.empty();
 }
 
 }  // namespace krepl::arcs

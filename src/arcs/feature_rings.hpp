@@ -1,15 +1,11 @@
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "arcs/side_arrangement.hpp"
 #include "krepl/error.hpp"
 
 namespace krepl::arcs {
-
-/// The rings of each feature, by number of part.
-std::map<std::int64_t, std::vector<Index>> rings_by_feature(const CurveNetwork& network);
 
 /// A feature's rings, cut where they meet.
 struct FeatureRings {

@@ -15,12 +15,12 @@ constexpr std::uint64_t instances = 4;
 
 }  // namespace
 
-Result<Outline> outline(const CurveNetwork& network, const ShapeOptions& options, const Context& context) {
+Result<shape::Outline> outline(const CurveNetwork& network, const ShapeOptions& options, const Context& context) {
   const double radius = std::abs(options.distance);
   const auto precision = zone::precision_for(network.extent(), network.straight().resolution(), radius, radius);
   if (!precision) return precision.error();
   for (std::uint64_t seed = 0;; ++seed) {
-    Outline result;
+    shape::Outline result;
     const Bodies bodies(network, options, radius, precision->effective_radius, precision->resolution, seed);
     auto rings = body_union(bodies, precision->resolution, context, result.counters);
     if (!rings) {
@@ -39,15 +39,9 @@ zone::ShapedRings rings_by_polygons(const CurveNetwork& network, const zone::Sha
                                     bool inside) {
   const CurveLocator polygons(network);
   const Point own = network.straight().origin(), shift{origin.x - own.x, origin.y - own.y};
-  zone::ShapedRings kept;
-  kept.touch = rings.touch;
-  for (Index r = 0; r < rings.ring_count(); ++r) {
-    const auto first = rings.piece.begin() + rings.begin[r], last = rings.piece.begin() + rings.begin[r + 1];
-    if (polygons.is_inside({first->start.x + shift.x, first->start.y + shift.y}) != inside) continue;
-    kept.piece.insert(kept.piece.end(), first, last);
-    kept.close();
-  }
-  return kept;
+  return zone::rings_where(rings, [&](Point start) {
+    return polygons.is_inside({start.x + shift.x, start.y + shift.y}) == inside;
+  });
 }
 
 }  // namespace krepl::arcs

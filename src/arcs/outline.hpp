@@ -4,19 +4,13 @@
 #include "krepl/curve_network.hpp"
 #include "krepl/error.hpp"
 #include "krepl/shape.hpp"
+#include "shape/two_sided.hpp"
 #include "zone/shaped_rings.hpp"
 
 namespace krepl::arcs {
 
-/// Rings of the zone of all segments, arcs and points, and how far apart they are at least.
-struct Outline {
-  zone::ShapedRings rings;
-  double slack = 0;
-  ZoneCounters counters;
-};
-
-/// Of the distance's absolute value, and caps and joins.
-Result<Outline> outline(const CurveNetwork& network, const ShapeOptions& options, const Context& context);
+/// Rings of the zone of all segments, arcs and points: of the distance's absolute value, and caps and joins.
+Result<shape::Outline> outline(const CurveNetwork& network, const ShapeOptions& options, const Context& context);
 
 /// The rings that lie inside a polygon of the network, or those that do not. They keep a distance of the radius from
 /// its border, so any place of a ring decides. `origin` is that of the rings.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "arcs/feature_rings.hpp"
+#include "shape/rings_by_feature.hpp"
 
 namespace krepl::arcs {
 namespace {
@@ -243,7 +244,7 @@ Result<std::shared_ptr<const CurveNetwork>> border_network(std::shared_ptr<const
                                                            const Context& context) {
   std::vector<FeatureRings> features;
   bool overlap = false;
-  for (const auto& [feature, rings] : rings_by_feature(*network)) {
+  for (const auto& [feature, rings] : shape::rings_by_feature(network->straight())) {
     auto f = take_apart(*network, rings, context);
     if (!f) return f.error();
     overlap = overlap || f->overlaps() || !f->collapsed.empty();

@@ -4,17 +4,10 @@
 #include <array>
 
 #include "model/arc_circle.hpp"
+#include "model/part_segments.hpp"
 
 namespace krepl::arcs {
 namespace {
-
-Index segment_between(const Network& network, Index a, Index b) {
-  if (b < a) std::swap(a, b);
-  const auto segments = network.segments();
-  const auto at = std::lower_bound(segments.begin(), segments.end(), std::pair{a, b},
-                                   [](const auto& s, std::pair<Index, Index> key) { return std::pair{s.a, s.b} < key; });
-  return Index(at - segments.begin());
-}
 
 Index arc_over(const CurveNetwork& network, Index a, Index m, Index b) {
   if (b < a) std::swap(a, b);
@@ -39,7 +32,7 @@ void append_sides(const CurveNetwork& network, Index part, std::vector<RingSide>
     RingSide side{at(i), at(i + 1), none, part, straight.part_feature(part)};
     if (middle == middles.end() || *middle != i + 1) {
       if (side.from == side.to) continue;
-      side.source = segment_between(straight, side.from, side.to);
+      side.source = find_segment(straight, side.from, side.to);
       out.push_back(side);
       continue;
     }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "kernel/odd_ones.hpp"
 
 namespace krepl::arcs {
 namespace {
@@ -277,20 +278,6 @@ std::vector<Box> RayToTheLeft::boxes_of(const SideArrangement& a) {
   return boxes;
 }
 
-namespace {
-
-std::vector<std::int64_t> odd_ones(std::vector<std::int64_t> list) {
-  std::sort(list.begin(), list.end());
-  std::vector<std::int64_t> odd;
-  for (std::size_t i = 0, j = 0; i < list.size(); i = j) {
-    while (j < list.size() && list[j] == list[i]) ++j;
-    if ((j - i) % 2 == 1) odd.push_back(list[i]);
-  }
-  return odd;
-}
-
-}  // namespace
-
 std::vector<std::int64_t> RayToTheLeft::holding(Index group) const {
   const Index own = a_.order()[a_.groups()[group]];
   const auto& f = a_.fragments()[own];
@@ -306,14 +293,16 @@ std::vector<std::int64_t> RayToTheLeft::holding(Index group) const {
         if (!(low <= y && y < high)) return;
         if (a_.x_at(Index(i), y) < x) hits.push_back(a_.sides()[g.side].feature);
       });
-  return odd_ones(std::move(hits));
+  kernel::keep_odd_ones(hits);
+  return hits;
 }
 
 std::vector<std::int64_t> RayToTheLeft::changing(Index group) const {
   std::vector<std::int64_t> here;
   for (Index i = a_.groups()[group]; i < a_.groups()[group + 1]; ++i)
     here.push_back(a_.sides()[a_.fragments()[a_.order()[i]].side].feature);
-  return odd_ones(std::move(here));
+  kernel::keep_odd_ones(here);
+  return here;
 }
 
 }  // namespace krepl::arcs

@@ -225,7 +225,8 @@ class Worker {
   }
 
   const Bodies& bodies_;
-  const std::vector<Body<double>>&own_, &rounded_;  // as paths, and as what covers
+  const std::vector<Body<double>>& own_;      // as paths
+  const std::vector<Body<double>>& rounded_;  // as what covers
   const kernel::BoxTree& tree_;
   double error_;
   std::array<Index, 8> recent_{none, none, none, none, none, none, none, none};

@@ -6,20 +6,14 @@
 #include "shape/check_options.hpp"
 #include "shape/one_sided.hpp"
 #include "shape/polygon_border.hpp"
-#include "zone/assembly.hpp"
+#include "shape/two_sided.hpp"
 #include "zone/precision.hpp"
+#include "zone/nesting.hpp"
 #include "zone/zone_rings.hpp"
 
 namespace krepl {
 namespace shape {
 namespace {
-
-/// Rings of the zone of all sides, segments and points, and how far apart they are at least.
-struct Outline {
-  zone::ShapedRings rings;
-  double slack = 0;
-  ZoneCounters counters;
-};
 
 Result<Outline> outline(const Network& network, const ShapeOptions& o, const Context& context) {
   Outline result;
@@ -43,30 +37,14 @@ Result<Outline> outline(const Network& network, const ShapeOptions& o, const Con
   return result;
 }
 
-Result<Zone> two_sided(std::shared_ptr<const Network> network, const ShapeOptions& o, const Context& context) {
-  std::shared_ptr<const Network> base = network;
-  const bool inward = o.distance < 0;
-  if (inward) {
-    if (Status shrinkable = check_shrinkable(*network); !shrinkable) return shrinkable.error();
-    auto border = border_network(network, context);
-    if (!border) return border.error();
-    if (*border == nullptr) return ZoneAssembly::finish(network, o.distance, {}, 0, {}, context);
-    base = std::move(*border);
-  }
-  auto found = outline(*base, o, context);
-  if (!found) return found.error();
-  zone::ShapedRings rings = std::move(found->rings);
-  if (network->has_polygons()) rings = zone::rings_by_polygons(*network, rings, base->origin(), inward);
-  if (o.ring) {
-    auto border = union_border(*network, *base, context);
-    if (!border) return border.error();
-    // Outwards the zone is what lies between its rings and the border, inwards the same from the other side.
-    rings.append(inward ? *border : zone::reversed(*border));
-  } else if (inward) {
-    rings = zone::reversed(rings);
-  }
-  return ZoneAssembly::finish(std::move(base), o.distance, std::move(rings), found->slack, found->counters, context);
-}
+struct Segments {
+  using Network = krepl::Network;
+  static const Network& straight(const Network& network) { return network; }
+  static constexpr auto border_network = shape::border_network;
+  static constexpr auto union_border = shape::union_border;
+  static constexpr auto outline = shape::outline;
+  static constexpr auto rings_by_polygons = zone::rings_by_polygons;
+};
 
 }  // namespace
 }  // namespace shape
@@ -76,7 +54,7 @@ Result<Zone> compute_shape(std::shared_ptr<const Network> network, const ShapeOp
   if (o.side != Side::both) return shape::one_sided(std::move(network), o, context);
   const bool plain = o.distance > 0 && !o.ring && o.cap == Cap::round && o.join == Join::round;
   if (plain) return compute_zone(std::move(network), {o.distance}, context);
-  return shape::two_sided(std::move(network), o, context);
+  return shape::two_sided<shape::Segments>(std::move(network), o, context);
 }
 
 }  // namespace krepl

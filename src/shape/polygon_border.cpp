@@ -6,20 +6,13 @@
 #include <utility>
 
 #include "kernel/box_tree.hpp"
+#include "kernel/odd_ones.hpp"
 #include "kernel/orientation.hpp"
+#include "shape/rings_by_feature.hpp"
 #include "shape/side_arrangement.hpp"
 
 namespace krepl::shape {
 namespace {
-
-using Parts = std::map<std::int64_t, std::vector<Index>>;  // rings by feature
-
-Parts rings_by_feature(const Network& network) {
-  Parts parts;
-  for (Index p = 0; p < network.part_count(); ++p)
-    if (network.part_is_ring(p)) parts[network.part_feature(p)].push_back(p);
-  return parts;
-}
 
 Error cancelled() { return {ErrorCode::cancelled, "cancelled", "", ""}; }
 
@@ -186,16 +179,11 @@ std::vector<DirectedSide> directed_border(const SideArrangement& a, std::span<co
   for (std::size_t g = 0; g + 1 < c.groups.size(); ++g) {
     std::vector<std::int64_t> here;
     for (Index i = c.groups[g]; i < c.groups[g + 1]; ++i) here.push_back(sides[a.fragments[c.order[i]].side].feature);
-    std::sort(here.begin(), here.end());
-    std::vector<std::int64_t> odd;
-    for (std::size_t i = 0, j = 0; i < here.size(); i = j) {
-      while (j < here.size() && here[j] == here[i]) ++j;
-      if ((j - i) % 2 == 1) odd.push_back(here[i]);
-    }
+    kernel::keep_odd_ones(here);
     const Index fragment = c.order[c.groups[g]];
     const auto before = ray.holding(fragment);
     std::vector<std::int64_t> after;
-    std::set_symmetric_difference(before.begin(), before.end(), odd.begin(), odd.end(), std::back_inserter(after));
+    std::set_symmetric_difference(before.begin(), before.end(), here.begin(), here.end(), std::back_inserter(after));
     if (before.empty() == after.empty()) continue;
     Index low = a.fragments[fragment].from, high = a.fragments[fragment].to;
     const Point p = a.snapped[low], q = a.snapped[high];
@@ -243,7 +231,7 @@ class NextSide {
 }  // namespace
 
 Result<std::shared_ptr<const Network>> border_network(std::shared_ptr<const Network> network, const Context& context) {
-  const Parts parts = rings_by_feature(*network);
+  const auto parts = rings_by_feature(*network);
   std::vector<FeatureRings> features;
   bool sound = true;
   for (const auto& [feature, rings] : parts) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "kernel/odd_ones.hpp"
 #include "kernel/orientation.hpp"
 #include "model/noding.hpp"
 
@@ -125,13 +126,8 @@ std::vector<std::int64_t> RayToTheLeft::holding(Index fragment) const {
         if (!(low.y <= middle.y && middle.y < high.y)) return;
         if (kernel::orientation(low, high, middle) < 0) hits.push_back(sides_[f.side].feature);
       });
-  std::sort(hits.begin(), hits.end());
-  std::vector<std::int64_t> odd;
-  for (std::size_t i = 0, j = 0; i < hits.size(); i = j) {
-    while (j < hits.size() && hits[j] == hits[i]) ++j;
-    if ((j - i) % 2 == 1) odd.push_back(hits[i]);
-  }
-  return odd;
+  kernel::keep_odd_ones(hits);
+  return hits;
 }
 
 }  // namespace krepl::shape

@@ -5,10 +5,12 @@
 #include <numeric>
 
 #include "kernel/box_tree.hpp"
+#include "kernel/odd_ones.hpp"
 #include "kernel/parallel.hpp"
 #include "kernel/vectors.hpp"
 #include "zone/arc_turn.hpp"
 #include "zone/polygon_locator.hpp"
+#include "zone/ray_crossing.hpp"
 
 namespace krepl::zone {
 namespace {
@@ -70,19 +72,13 @@ class PieceShape {
     return p_.x <= q_.x ? p_ : q_;
   }
 
-  /// True if the ray from a place to the left crosses the piece an odd number of times: the chord, and once more where the
-  /// place is between chord and arc. Places on the chord count as left of it, or above it if it is level.
+  /// True if the ray from a place to the left crosses the piece an odd number of times.
   bool is_crossed(Point from) const {
-    const double turn = cross(p_, q_, from);
-    const bool upward = p_.y < q_.y;
-    const bool chord = (p_.y <= from.y) != (q_.y <= from.y) && (upward ? turn < 0 : turn > 0);
-    if (!arc_) return chord;
-    const bool right = turn < 0 || (turn == 0 && (p_.y == q_.y ? q_.x < p_.x : !upward));
-    if (!(p_ == q_) && !right) return chord;
+    if (!arc_) return ray_crosses_segment(p_, q_, from);
     const Point v{from.x - p_.x, from.y - p_.y}, u{from.x - centre_.x, from.y - centre_.y};
     const bool in_circle = short_ ? v.x * (v.x - 2 * to_centre_.x) + v.y * (v.y - 2 * to_centre_.y) < 0
                                   : std::hypot(u.x, u.y) < radius_;
-    return chord != in_circle;
+    return ray_crosses_arc(p_, q_, true, in_circle, from);
   }
 
   double chord() const { return p_ == q_ && arc_ ? 2 * radius_ : std::hypot(q_.x - p_.x, q_.y - p_.y); }
@@ -276,11 +272,8 @@ Result<Nesting> nest_touching(const ShapedPicture& picture, double slack, const 
           if (picture.ring_of(Index(e)) != r && picture.shape(Index(e)).is_crossed(place[r]))
             crossed.push_back(picture.ring_of(Index(e)));
       });
-      std::sort(crossed.begin(), crossed.end());
-      for (std::size_t i = 0, j = 0; i < crossed.size(); i = j) {
-        while (j < crossed.size() && crossed[j] == crossed[i]) ++j;
-        if ((j - i) % 2 == 1) around[r].push_back(crossed[i]);
-      }
+      kernel::keep_odd_ones(crossed);
+      around[r] = crossed;
     }
   });
   Nesting nesting{std::vector<bool>(count), std::vector<Index>(count, none)};
@@ -384,15 +377,10 @@ ShapedRings rings_by_polygons(const Network& network, const ShapedRings& rings, 
   const PolygonLocator polygons(network);
   std::vector<std::int64_t> around;
   const Point shift{origin.x - network.origin().x, origin.y - network.origin().y};
-  ShapedRings kept;
-  for (Index r = 0; r < rings.ring_count(); ++r) {
-    const auto first = rings.piece.begin() + rings.begin[r], last = rings.piece.begin() + rings.begin[r + 1];
-    polygons.find({first->start.x + shift.x, first->start.y + shift.y}, around);
-    if (around.empty() == inside) continue;
-    kept.piece.insert(kept.piece.end(), first, last);
-    kept.close();
-  }
-  return kept;
+  return rings_where(rings, [&](Point start) {
+    polygons.find({start.x + shift.x, start.y + shift.y}, around);
+    return !around.empty() == inside;
+  });
 }
 
 }  // namespace krepl::zone

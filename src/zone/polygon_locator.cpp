@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "kernel/odd_ones.hpp"
 #include "kernel/vectors.hpp"
 
 namespace krepl::zone {
@@ -47,13 +48,7 @@ void PolygonLocator::find(Point p, std::vector<std::int64_t>& features) const {
       if ((cross(s.p, s.q, p) < 0) == upward) features.push_back(s.feature);
     }
   });
-  std::sort(features.begin(), features.end());
-  std::size_t kept = 0;
-  for (std::size_t i = 0, j = 0; i < features.size(); i = j) {
-    while (j < features.size() && features[j] == features[i]) ++j;
-    if ((j - i) % 2 == 1) features[kept++] = features[i];
-  }
-  features.resize(kept);
+  kernel::keep_odd_ones(features);
 }
 
 }  // namespace krepl::zone

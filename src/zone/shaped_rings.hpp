@@ -30,4 +30,18 @@ ShapedRings shaped(const Instance& instance, const Rings& rings);
 /// The other way round: what was on the left is on the right.
 ShapedRings reversed(const ShapedRings& rings);
 
+/// The rings for which is_kept(where their first piece starts) is true.
+template <class Predicate>
+ShapedRings rings_where(const ShapedRings& rings, Predicate&& is_kept) {
+  ShapedRings kept;
+  kept.touch = rings.touch;
+  for (Index r = 0; r < rings.ring_count(); ++r) {
+    const auto first = rings.piece.begin() + rings.begin[r], last = rings.piece.begin() + rings.begin[r + 1];
+    if (!is_kept(first->start)) continue;
+    kept.piece.insert(kept.piece.end(), first, last);
+    kept.close();
+  }
+  return kept;
+}
+
 }  // namespace krepl::zone

@@ -64,6 +64,14 @@ TEST(CurveZone, OfACircleNotWiderThanTheRadiusIsADisk) {
   }
 }
 
+TEST(CurveZone, OfARadiusThatIsNoneIsRefused) {
+  for (const double radius : {0.0, -1.0, std::nan("")}) {
+    const auto zone = curve_zone_of(case_of({circle(0, 0, 3)}, radius));
+    ASSERT_FALSE(zone.ok()) << radius;
+    EXPECT_EQ(zone.error().code, ErrorCode::usage) << radius;
+  }
+}
+
 TEST(CurveZone, OfAStadium) {
   // Two straights of 4 and two half circles of radius 2, as one closed line, then filled.
   const std::vector<Point> track{{0, 0}, {4, 0}, {6, 2}, {4, 4}, {0, 4}, {-2, 2}, {0, 0}};
