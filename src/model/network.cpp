@@ -6,6 +6,7 @@
 
 #include "kernel/box_tree.hpp"
 #include "kernel/hilbert.hpp"
+#include "kernel/pages.hpp"
 #include "kernel/parallel.hpp"
 #include "kernel/radix_sort.hpp"
 #include "model/exact_origin.hpp"

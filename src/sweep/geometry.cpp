@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernel/pages.hpp"
 #include "kernel/parallel.hpp"
 
 // Error bounds are first-order with a factor of two or more to spare.

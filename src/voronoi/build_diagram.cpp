@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "kernel/pages.hpp"
 #include "kernel/parallel.hpp"
 #include "voronoi/first_faces.hpp"
 
@@ -320,8 +321,8 @@ Result<Diagram> build_diagram(const Sites& sites, const SiteBoxes& boxes, std::u
   std::vector<char> again;
   const Index n = sites.instance().element_count();
   again.assign(n, 0);
-  borders.first.assign(n, 0);
-  borders.count.assign(n, 0);
+  kernel::resize_pages(context, borders.first, n);
+  kernel::resize_pages(context, borders.count, n);
   if (Status built = build_first_faces(sites, boxes, most_candidates, context, borders, again, counters); !built)
     return built.error();
   if (Status agreed = Settling(sites, boxes, context, borders, again, counters).run(); !agreed) return agreed.error();

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "kernel/budget.hpp"
+#include "kernel/pages.hpp"
 #include "kernel/parallel.hpp"
 
 namespace krepl::voronoi {
@@ -65,8 +66,13 @@ class FirstFaces {
       return Error{ErrorCode::computation, "too many sites come near the same places of the Voronoi diagram", "",
                    "take another engine, or allow more candidates"};
     }
-    std::size_t total = 0;
+    std::vector<Index> flat;
+    for (Index v = 0; v < in_.vertices().size(); ++v) {
+      if (is_flat(v)) flat.push_back(v);
+    }
+    std::size_t total = 2 * flat.size();
     for (const Part& part : parts_) total += part.links.size();
+    kernel::reserve_large(borders_.links, total + total / 4);  // room for faces done again, untouched until it is needed
     kernel::reserve_pages(context, borders_.links, total);
     for (Part& part : parts_) {
       for (const Index e : part.elements) borders_.first[e] += Index(borders_.links.size());
@@ -74,36 +80,35 @@ class FirstFaces {
       counters.candidates += part.counters.candidates;
       counters.searched += part.counters.searched;
       counters.faces += part.elements.size();
-      part = {};
+      links_.release(part.links);
+      part.elements = {};
     }
-    for (Index v = 0; v < in_.vertices().size(); ++v) {
-      if (!is_flat(v)) continue;
-      build_flat(v);
-      ++counters.faces;
-    }
+    for (const Index v : flat) build_flat(v);
+    counters.faces += flat.size();
     return std::monostate{};
   }
 
  private:
   struct Part {
-    std::vector<Link> links;
+    std::span<const Link> links;
     std::vector<Index> elements;
     FaceCounters counters;
   };
 
   void build_block(Index from, Index to, const Context& context) {
     Part& part = parts_[from / block];
+    std::vector<Link> links;
     FaceBuilder builder(sites_, boxes_);
     Hints hints(heads_);
     std::uint64_t spent = 0;
     const auto build_face = [&](Index e) {
-      const std::size_t start = part.links.size();
-      again_[e] = !builder.build(e, hints.of(e), part.links);
+      const std::size_t start = links.size();
+      again_[e] = !builder.build(e, hints.of(e), links);
       done_[e] = 1;
       borders_.first[e] = Index(start);
-      borders_.count[e] = Index(part.links.size() - start);
+      borders_.count[e] = Index(links.size() - start);
       part.elements.push_back(e);
-      if (!again_[e]) tell(e, {part.links.data() + start, part.links.size() - start}, from, to, hints);
+      if (!again_[e]) tell(e, {links.data() + start, links.size() - start}, from, to, hints);
       budget_.spend(builder.counters.candidates - spent);
       spent = builder.counters.candidates;
     };
@@ -121,6 +126,7 @@ class FirstFaces {
         if (sites_.owner(v) == s && !done_[in_.circle(v)] && !is_flat(v)) build_face(in_.circle(v));
       }
     }
+    part.links = links_.keep(links);
     part.counters = builder.counters;
   }
 
@@ -174,6 +180,7 @@ class FirstFaces {
   std::vector<char>& again_;
   std::vector<Index> heads_;
   std::vector<char> done_;
+  kernel::Store<Link> links_;
   std::vector<Part> parts_;
 };
 

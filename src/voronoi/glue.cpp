@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "kernel/pages.hpp"
+
 namespace krepl::voronoi {
 
 Index Borders::before(Index face, Index link) const {
@@ -88,6 +90,7 @@ Index Borders::twin(Index face, Index link) const {
 
 void Borders::remember_twins() {
   constexpr Index many = 64;
+  if (twins_.empty()) kernel::reserve_large(twins_, links.capacity());
   twins_.resize(links.size(), none);
   for (Index face = 0; face < count.size(); ++face) {
     if (count[face] <= many) continue;

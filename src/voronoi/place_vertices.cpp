@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "kernel/parallel.hpp"
+#include "kernel/pages.hpp"
 #include "voronoi/glue.hpp"
 
 namespace krepl::voronoi {
@@ -56,10 +56,12 @@ bool settle(const Sites& sites, const std::array<Index, 3>& touched, Place& plac
 
 class Placing {
  public:
-  Placing(const Sites& sites, const Borders& borders, Diagram& d)
+  Placing(const Sites& sites, const Borders& borders, const Context& context, Diagram& d)
       : sites_(sites), in_(sites.instance()), borders_(borders), d_(d) {
-    face_.resize(d.link_count());
-    old_.resize(d.link_count());
+    kernel::resize_pages(context, face_, d.link_count());
+    kernel::resize_pages(context, old_, d.link_count());
+    kernel::reserve_large(d.place, d.link_count() / 2);  // there are hardly more vertices
+    kernel::reserve_large(d.clearance, d.link_count() / 2);
     for (Index e = 0; e < d.face_count(); ++e) {
       for (Index i = d.begin[e]; i < d.begin[e + 1]; ++i) face_[i] = e, old_[i] = borders.first[e] + (i - d.begin[e]);
     }
@@ -152,8 +154,8 @@ class Placing {
 
 }  // namespace
 
-void place_vertices(const Sites& sites, const Borders& borders, const Context&, Diagram& diagram) {
-  Placing(sites, borders, diagram).run();
+void place_vertices(const Sites& sites, const Borders& borders, const Context& context, Diagram& diagram) {
+  Placing(sites, borders, context, diagram).run();
 }
 
 }  // namespace krepl::voronoi

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernel/pages.hpp"
 #include "kernel/parallel.hpp"
 
 namespace krepl::voronoi {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string>
 
+#include "kernel/pages.hpp"
 #include "kernel/parallel.hpp"
 #include "krepl/curve_network.hpp"
 #include "zone/precision.hpp"

@@ -6,6 +6,7 @@
 
 #include "kernel/box_tree.hpp"
 #include "kernel/budget.hpp"
+#include "kernel/pages.hpp"
 #include "kernel/parallel.hpp"
 
 namespace krepl::zone {
@@ -280,15 +281,18 @@ Result<std::vector<Piece>> uncovered_pieces(const Instance& instance, const Site
   constexpr std::size_t block = 1 << 13;
   const std::size_t n = instance.element_count();
   struct Part {
-    std::vector<Piece> pieces;
+    std::span<const Piece> pieces;
     ZoneCounters counters;
   };
+  kernel::Store<Piece> found;
   std::vector<Part> parts((n + block - 1) / block);
   kernel::Progress progress(context, n);
   kernel::Budget budget(most_candidates * n);
   const bool done = kernel::parallel_blocks(context, n, block, [&](std::size_t first, std::size_t last) {
     Part& part = parts[first / block];
-    Worker(instance, tree, context, budget).run(Index(first), Index(last), part.pieces, part.counters);
+    std::vector<Piece> pieces;
+    Worker(instance, tree, context, budget).run(Index(first), Index(last), pieces, part.counters);
+    part.pieces = found.keep(pieces);
     progress.add(last - first);
   });
   if (!done || context.cancelled()) return Error{ErrorCode::cancelled, "cancelled", "", ""};
@@ -301,10 +305,10 @@ Result<std::vector<Piece>> uncovered_pieces(const Instance& instance, const Site
   std::size_t total = 0;
   for (const Part& p : parts) total += p.pieces.size();
   kernel::reserve_pages(context, all, total);
-  for (Part& p : parts) {
+  for (const Part& p : parts) {
     all.insert(all.end(), p.pieces.begin(), p.pieces.end());
+    found.release(p.pieces);
     add(counters, p.counters);
-    p.pieces = {};
   }
   return all;
 }

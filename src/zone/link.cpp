@@ -1,5 +1,6 @@
 #include <string>
 
+#include "kernel/pages.hpp"
 #include "kernel/parallel.hpp"
 #include "zone/crossing.hpp"
 #include "zone/rings.hpp"
