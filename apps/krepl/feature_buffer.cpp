@@ -76,12 +76,14 @@ int write_dissolved(const FeatureJob& job, const input::FeatureData& data, Sessi
 }
 
 /// Shapes depend on what is inside of polygons, so what is wrong with their rings is told.
+template <class AnyNetwork>
 Status tell_faults(const input::FeatureData& data, const std::string& in_name, Session& session) {
-  Network::Builder builder;
+  if (std::ranges::find(data.parts.kind, input::Parts::Kind::ring) == data.parts.kind.end()) return std::monostate{};
+  typename AnyNetwork::Builder builder;
   std::vector<double> radii;
   add_features(data, all_features(data), builder, radii);
-  const Result<Network> network = std::move(builder).build(session.context("reading"));
-  if (!network || !network->has_polygons()) return std::monostate{};  // errors are told group by group
+  const Result<AnyNetwork> network = std::move(builder).build(session.context("reading"));
+  if (!network) return std::monostate{};  // errors are told group by group
   return tell_ring_faults(*network, in_name, session);
 }
 
@@ -134,6 +136,7 @@ int run_feature_buffer(const FeatureJob& job, Session& session) {
     radii = std::move(*parsed);
   }
   if (Status checked = check_shape(job, radii); !checked) return session.fail("", checked.error());
+  request.network.keep_arcs = job.engine == "auto" && groups_take_arcs(job.features, job.shape, radii.empty());
   const std::string in_name = input_name(job.input.path);
   Result<input::FeatureData> data = input::read_features(request, session.context("reading"));
   if (!data) return session.fail(in_name, data.error());
@@ -144,7 +147,9 @@ int run_feature_buffer(const FeatureJob& job, Session& session) {
   const FeatureOptions& f = job.features;
   if (!f.per_feature && f.dissolve_by.empty() && f.owner.empty()) return write_dissolved(with_crs, *data, session, total);
   if (!is_plain(job.shape, radii)) {
-    if (Status told = tell_faults(*data, in_name, session); !told) return session.fail(in_name, told.error());
+    const Status told = data->parts.middle.empty() ? tell_faults<Network>(*data, in_name, session)
+                                                   : tell_faults<CurveNetwork>(*data, in_name, session);
+    if (!told) return session.fail(in_name, told.error());
   }
   const auto groups = make_groups(*data, f.dissolve_by);
   const GroupJob all{with_crs, *data, groups, radii};

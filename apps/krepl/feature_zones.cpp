@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <type_traits>
 
-#include "input/collected.hpp"
 #include "kernel/parallel.hpp"
+#include "krepl/curve_zone.hpp"
 #include "krepl/zone.hpp"
 #include "output/feature_file.hpp"
 #include "output/ogr_geometry.hpp"
@@ -48,19 +49,34 @@ class GroupZones {
     return count;
   }
 
+  bool has_arcs(std::size_t k) const {
+    const auto& parts = job_.data.parts;
+    return std::ranges::any_of(group(k).features, [&](std::size_t f) {
+      const std::size_t first = parts.begin[job_.data.part_begin[f]], last = parts.begin[job_.data.part_begin[f + 1]];
+      const auto middle = std::lower_bound(parts.middle.begin(), parts.middle.end(), first);
+      return middle != parts.middle.end() && *middle < last;
+    });
+  }
+
+  template <class AnyNetwork>
   Result<Zone> compute(std::size_t k, const Context& context) const {
-    Network::Builder builder;
+    typename AnyNetwork::Builder builder;
     std::vector<double> part_radii;
     add_features(job_.data, group(k).features, builder, part_radii);
-    Result<Network> network = std::move(builder).build(context);
+    Result<AnyNetwork> network = std::move(builder).build(context);
     if (!network) return network.error();
-    auto shared = std::make_shared<const Network>(std::move(*network));
+    auto shared = std::make_shared<const AnyNetwork>(std::move(*network));
     const bool own = job_.radii.empty();  // then, of all parts of the one feature, the same
     ShapeOptions shape = job_.job.shape;
     if (!own || !part_radii.empty()) shape.distance = own ? part_radii.front() : job_.radii[k % per_group_];
     if (!is_plain(shape, {shape.distance})) return compute_shape(std::move(shared), shape, context);
-    if (own) return compute_zone(std::move(shared), part_radii, context);
+    if constexpr (std::is_same_v<AnyNetwork, Network>) {
+      if (own) return compute_zone(std::move(shared), part_radii, context);
+    }
     return compute_zone(std::move(shared), ZoneOptions{shape.distance}, context);
+  }
+  Result<Zone> compute(std::size_t k, const Context& context) const {
+    return has_arcs(k) ? compute<CurveNetwork>(k, context) : compute<Network>(k, context);
   }
 
   Status compute_block() {
@@ -125,14 +141,9 @@ output::FeatureColumns columns_of(const GroupJob& job) {
   return columns;
 }
 
-void add_features(const input::FeatureData& data, const std::vector<std::size_t>& features, Network::Builder& builder,
-                  std::vector<double>& radii) {
-  for (const std::size_t f : features) {
-    for (std::size_t i = data.part_begin[f]; i < data.part_begin[f + 1]; ++i) {
-      input::add_part(builder, data.parts, i, data.parts.feature[i]);
-      if (!data.radius.empty()) radii.push_back(data.radius[f]);
-    }
-  }
+bool groups_take_arcs(const FeatureOptions& features, const ShapeOptions& shape, bool own_radii) {
+  const bool one_radius = !own_radii || features.per_feature;
+  return (features.per_feature || !features.dissolve_by.empty()) && features.owner.empty() && one_radius && takes_arcs(shape);
 }
 
 int write_groups(const GroupJob& job, Session& session) {

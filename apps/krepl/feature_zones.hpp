@@ -4,9 +4,11 @@
 #include <vector>
 
 #include "feature_buffer.hpp"
+#include "input/collected.hpp"
 #include "input/feature_reader.hpp"
 #include "krepl/network.hpp"
 #include "output/feature_file.hpp"
+#include "shape_options.hpp"
 
 namespace krepl::app {
 
@@ -29,9 +31,20 @@ struct GroupJob {
 /// each feature if no field is named.
 std::vector<FeatureGroup> make_groups(const input::FeatureData& data, const std::string& field);
 std::vector<std::size_t> all_features(const input::FeatureData& data);
-/// Adds the features' parts to a network, and to `radii` the radius of each part where features have their own.
-void add_features(const input::FeatureData& data, const std::vector<std::size_t>& features, Network::Builder& builder,
-                  std::vector<double>& radii);
+/// Adds the features' parts to a network (with their arcs, if it can have some), and to `radii` the radius of each part where
+/// features have their own.
+template <class Builder>
+void add_features(const input::FeatureData& data, const std::vector<std::size_t>& features, Builder& builder,
+                  std::vector<double>& radii) {
+  for (const std::size_t f : features) {
+    for (std::size_t i = data.part_begin[f]; i < data.part_begin[f + 1]; ++i) {
+      input::add_part(builder, data.parts, i, data.parts.feature[i]);
+      if (!data.radius.empty()) radii.push_back(data.radius[f]);
+    }
+  }
+}
+/// True if zones of features or groups are made of arcs as they are; else they are to be replaced by chords.
+bool groups_take_arcs(const FeatureOptions& features, const ShapeOptions& shape, bool own_radii);
 
 /// The fields of the file: those of the features, or the one that groups have in common; radius, area, perimeter.
 output::FeatureColumns columns_of(const GroupJob& job);

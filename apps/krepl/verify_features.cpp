@@ -26,7 +26,8 @@ Parts parts_of(const input::FeatureData& data, const FeatureGroup& group) {
       parts.push_back({{first, last},
                        data.parts.kind[i] == input::Parts::Kind::ring,
                        std::int64_t(f),
-                       data.radius.empty() ? 0 : data.radius[f]});
+                       data.radius.empty() ? 0 : data.radius[f],
+                       data.parts.middles_of(i)});
     }
   }
   return parts;
@@ -61,9 +62,11 @@ Result<Loaded> load(const FeatureVerification& job, Session& session, bool& faul
   fault_of_result = false;
   input::FeatureRequest request;
   request.network.path = in.path, request.network.layer = in.layer, request.network.where = in.where;
-  request.network.crs = in.crs, request.network.to_crs = in.to_crs;
+  request.network.crs = in.crs, request.network.to_crs = in.to_crs, request.network.arc_error = in.arc_error;
   request.radius_field = in.radius_field, request.radius_expression = in.radius_expression;
   request.group_field = job.features.dissolve_by;
+  request.network.keep_arcs =
+      groups_take_arcs(job.features, job.shape, !in.radius_field.empty() || !in.radius_expression.empty());
   auto data = input::read_features(request, session.context("reading"));
   session.finish_progress();
   if (!data) return data.error();

@@ -70,6 +70,16 @@ void add_part(Network::Builder& builder, const Parts& parts, std::size_t i, std:
   }
 }
 
+void add_part(CurveNetwork::Builder& builder, const Parts& parts, std::size_t i, std::int64_t feature) {
+  std::span<const Point> vertices(parts.points.data() + parts.begin[i], parts.begin[i + 1] - parts.begin[i]);
+  const std::vector<std::uint32_t> middles = parts.middles_of(i);
+  switch (parts.kind[i]) {
+    case Parts::Kind::line: builder.add_line(vertices, middles, feature); break;
+    case Parts::Kind::ring: builder.add_ring(vertices, middles, feature); break;
+    case Parts::Kind::point: builder.add_point(vertices.front(), feature); break;
+  }
+}
+
 Result<Network> build_network(const Parts& parts, const Context& context) {
   Network::Builder builder;
   for (std::size_t i = 0; i < parts.size(); ++i) add_part(builder, parts, i, parts.feature[i]);
@@ -78,15 +88,7 @@ Result<Network> build_network(const Parts& parts, const Context& context) {
 
 Result<CurveNetwork> build_curve_network(const Parts& parts, const Context& context) {
   CurveNetwork::Builder builder;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    std::span<const Point> vertices(parts.points.data() + parts.begin[i], parts.begin[i + 1] - parts.begin[i]);
-    const std::vector<std::uint32_t> middles = parts.middles_of(i);
-    switch (parts.kind[i]) {
-      case Parts::Kind::line: builder.add_line(vertices, middles, parts.feature[i]); break;
-      case Parts::Kind::ring: builder.add_ring(vertices, middles, parts.feature[i]); break;
-      case Parts::Kind::point: builder.add_point(vertices.front(), parts.feature[i]); break;
-    }
-  }
+  for (std::size_t i = 0; i < parts.size(); ++i) add_part(builder, parts, i, parts.feature[i]);
   return std::move(builder).build(context);
 }
 

@@ -43,7 +43,8 @@ Result<CurveNetwork> build_curve_network(const Parts& parts, const Context& cont
 /// Arcs that are kept cannot be projected: what a projection makes of one is none.
 Status check_projection(const Parts& parts, const std::string& to_crs,
                         const std::function<std::string(std::int64_t)>& place);
-/// Adds part i to a network, as one of this feature.
+/// Adds part i to a network, as one of this feature; without arcs it has none, middles or not.
 void add_part(Network::Builder& builder, const Parts& parts, std::size_t i, std::int64_t feature);
+void add_part(CurveNetwork::Builder& builder, const Parts& parts, std::size_t i, std::int64_t feature);
 
 }  // namespace krepl::input

@@ -84,7 +84,8 @@ Result<FeatureData> read_features(const FeatureRequest& request, const Context& 
   auto source = open_geometry_source(network.path, {network.layer, network.where}, context);
   if (!source) return source.error();
   FeatureData data;
-  Result<Collected> all = collect(**source, {network.arc_error}, context, [&](const GeometrySource::Item& item, std::size_t parts) {
+  Result<Collected> all = collect(**source, {network.arc_error, network.keep_arcs}, context,
+                                   [&](const GeometrySource::Item& item, std::size_t parts) {
     if (parts == data.part_begin.back()) return;
     if (item.feature != nullptr) data.row.push_back(attributes_of(*item.feature));
     data.place.push_back((*source)->place(item.number));
@@ -103,6 +104,7 @@ Result<FeatureData> read_features(const FeatureRequest& request, const Context& 
   Result<std::optional<OGRSpatialReference>> crs = crs_of_data(network, **source);
   if (!crs) return crs.error();
   const auto place = [&](std::int64_t number) { return (*source)->place(number); };
+  if (Status plain = check_projection(data.parts, network.to_crs, place); !plain) return plain.error();
   auto plane = project(data.parts, {*crs, network.to_crs, place}, data.notes, context);
   if (!plane) return plane.error();
   if (plane->has_value()) data.crs = ogr::crs_definition(**plane);

@@ -39,7 +39,7 @@ struct FeatureData {
 Result<std::unordered_map<std::int64_t, std::shared_ptr<const OGRFeature>>> read_attributes(const NetworkRequest& request,
                                                                                            const Context& context = {});
 
-/// As read_network, with attributes. Errors also: a field that is not there (lists those there are), an expression that
+/// As read_network, with attributes; arcs that are kept are told by `parts.middle`. Errors also: a field that is not there (lists those there are), an expression that
 /// is none; a radius that is null, no number, not finite, zero or negative, with the feature's name.
 Result<FeatureData> read_features(const FeatureRequest& request, const Context& context = {});
 

@@ -41,7 +41,8 @@ std::vector<InputPart> plain(const input::Parts& parts) {
 }
 
 Result<std::vector<InputPart>> read_parts_with_radii(const InputRequest& request, const Context& context) {
-  const input::NetworkRequest network{request.path, request.layer, request.where, request.crs, request.to_crs};
+  const input::NetworkRequest network{request.path,   request.layer,     request.where,    request.crs,
+                                      request.to_crs, request.arc_error, request.keep_arcs};
   auto features = input::read_features({network, request.radius_field, request.radius_expression, ""}, context);
   if (!features) return features.error();
   std::vector<InputPart> parts = plain(features->parts);

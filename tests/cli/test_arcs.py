@@ -1,4 +1,4 @@
-"""Arcs of the input: kept where the zone is a whole round one, else refused, or chords within --arc-error in their place."""
+"""Arcs of the input: kept where zones have a single radius and both sides, else refused, or chords within --arc-error in their place."""
 import math
 import re
 
@@ -176,6 +176,39 @@ class Arcs(support.CliTest):
         told = self.ogr("ogrinfo", "-al", "-geom=NO", "out.gpkg", "pieces")
         self.assertEqual(told.count("source_feature (Integer64) = 2"), 4)
         self.assertEqual(told.count("radius (Real) = 2\n"), 5)
+
+    def test_zones_of_features(self):
+        """Features and groups of them keep their arcs, beside others without any; all options of shapes are taken."""
+        self.need("ogr2ogr")
+        self.write("in.csv", f'name,w,wkt\na,2,"{HALF}"\nb,1,"CURVEPOLYGON ({STADIUM})"\na,3,"LINESTRING (40 0, 50 0)"\n')
+        self.ogr("ogr2ogr", "in.gpkg", "in.csv", "-oo", "GEOM_POSSIBLE_NAMES=wkt", "-oo", "KEEP_GEOM_COLUMNS=NO",
+                 "-oo", "AUTODETECT_TYPE=YES", "-a_srs", "EPSG:25832")
+        half, line = lambda r: 20 * PI * r + PI * r * r, lambda r: 20 * r + PI * r * r
+        stadium = lambda r: 200 + 25 * PI + (40 + 10 * PI) * r + PI * r * r
+        for options, areas in (
+                (("--per-feature", "--radius", R), (half(R), stadium(R), line(R))),
+                (("--dissolve-by", "name", "--radius", R), (half(R) + line(R), stadium(R))),
+                (("--per-feature", "--radius-field", "w"), (half(2), stadium(1), line(3))),
+                (("--per-feature", "--radius", "2*w+1"), (half(5), stadium(3), line(7))),
+                (("--per-feature", "--radius", "1,3"), (half(1), half(3), stadium(1), stadium(3), line(1), line(3))),
+                (("--per-feature", "--radius", R, "--cap", "flat", "--join", "bevel"), (20 * PI * R, stadium(R), 20 * R))):
+            with self.subTest(options=options):
+                done = self.succeed("buffer", "in.gpkg", "out.gpkg", *options)
+                self.assertNotIn("chords", done.stderr)
+                self.succeed("verify", "out.gpkg", "--against", "in.gpkg", *options)
+                told = self.ogr("ogrinfo", "-al", "-q", "out.gpkg")
+                found = [float(area) for area in re.findall(r"area \(Real\) = (\S+)", told)]
+                self.assertEqual(len(found), len(areas))
+                for area, expected in zip(found, areas):
+                    self.assertAlmostEqual(area, expected, delta=1e-9 * expected)
+                self.assertGreater(told.count("CIRCULARSTRING"), len(areas))
+        # What shares places out or has several radii in one zone takes chords.
+        for options in (("--owner", "nearest", "--radius", R), ("--dissolve-by", "name", "--radius-field", "w"), ("--radius-field", "w")):
+            with self.subTest(options=options):
+                self.fail_with(1, "in.gpkg: arcs of the input cannot stay arcs here, feature 1; give --arc-error LENGTH for chords in "
+                               "their place that deviate by no more", "buffer", "in.gpkg", "none.gpkg", *options, output="none.gpkg")
+                self.succeed("buffer", "in.gpkg", "out.gpkg", *options, "--arc-error", ERROR)
+                self.succeed("verify", "out.gpkg", "--against", "in.gpkg", *options, "--arc-error", ERROR)
 
     def test_no_projection(self):
         self.write("in.wkt", "SRID=25832;" + HALF + "\n")
