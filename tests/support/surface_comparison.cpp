@@ -32,7 +32,7 @@ struct Chain {
   Index from, to;  // vertices; none for a closed one without any
   Index left, right;
   Surface::EdgeKind kind;
-  Surface::Curve curve;
+  std::optional<Surface::Curve> curve;  // none: a wall too low to be one, whose plan says nothing
 };
 
 /// A surface's half-edges without those that are too short to mean anything, joined to chains.
@@ -60,6 +60,7 @@ class Reduced {
     for (Index h = 0; h < count; ++h) {
       if (alive_[h]) out_[origin(h)].push_back(h);
     }
+    settle_low_walls(tolerance);
     for (Index v = 0; v < topology_.vertex_count; ++v) part_if_touching(v);
     chain_of_.assign(count, none);
     for (Index h = 0; h < count; ++h) {
@@ -156,10 +157,7 @@ class Reduced {
   bool touches(const Surface::Edge& edge, LongPoint c, double tolerance) const {
     const double radius = surface_.radius();
     if (edge.kind == Surface::EdgeKind::rim) {  // upright: at whatever height
-      Terrain::Corners flat = surface_.terrain().corners(upper(edge));
-      for (Point3& p : flat.point) p.z = double(c.z);
-      const LongPoint q = foot(flat, c);
-      return std::fabs(double(std::hypot(q.x - c.x, q.y - c.y)) - radius) <= tolerance;
+      return std::fabs(double(wall_excess(upper(edge), c))) <= tolerance;
     }
     const auto touched = [&](Index f) {
       return std::fabs(double(nearest_on(surface_.terrain().corners(f), c).distance) - radius) <= tolerance;
@@ -188,6 +186,60 @@ class Reduced {
     return touches(surface_.edge(h / 2), c, tolerance);
   }
   Index find(Index v) const { return root(vertex_, v); }
+  /// True if the edge is a valley and a wall at once within the tolerance: a wall at the top of which the ball touches what is
+  /// below it, too; a valley all along the place where one of its features ends in a wall.
+  bool is_low_wall(Index e, double tolerance) const {
+    const auto edge = surface_.edge(e);
+    if (edge.kind == Surface::EdgeKind::seam) return false;
+    const std::vector<Point3> points = surface_.curve(e, 9);
+    const auto at_all = [&](auto&& holds) {
+      return std::ranges::all_of(points, [&](Point3 p) { return std::fabs(double(holds(LongPoint{p.x, p.y, p.z}))) <= tolerance * exact; });
+    };
+    if (edge.kind == Surface::EdgeKind::rim) {
+      const Index below = feature(edge.feature[0] == none ? 2 * e : 2 * e + 1);
+      if (below == none) return false;
+      const auto corners = surface_.terrain().corners(below);
+      return at_all([&](LongPoint c) { return nearest_on(corners, c).distance - surface_.radius(); });
+    }
+    return std::ranges::any_of(edge.feature, [&](Index f) {
+      return f != none && at_all([&](LongPoint c) { return wall_excess(f, c); }) &&
+             std::ranges::all_of(points, [&](Point3 p) { return std::fabs(double(foot(f, {p.x, p.y, p.z}).z - p.z)) <= 4 * tangent_; });
+    });
+  }
+  /// By how much a place is farther in the plane than a feature's walls.
+  Long wall_excess(Index f, LongPoint c) const {
+    Terrain::Corners flat = surface_.terrain().corners(f);
+    for (Point3& p : flat.point) p.z = double(c.z);
+    const LongPoint q = foot(flat, c);
+    return std::hypot(q.x - c.x, q.y - c.y) - surface_.radius();
+  }
+  /// An edge that is both is what goes on from it is, or else a valley.
+  void settle_low_walls(double tolerance) {
+    const auto count = Index(next_.size());
+    for (Index e = 0; e < count / 2; ++e) {
+      kind_.push_back(surface_.edge(e).kind);
+      is_low_.push_back(alive_[2 * e] && is_low_wall(e, tolerance));
+    }
+    for (Index e = 0; e < count / 2; ++e) {
+      if (!is_low_[e]) continue;
+      std::optional<Surface::EdgeKind> found;
+      bool one = true;
+      for (Index h : {2 * e, 2 * e + 1}) {
+        for (Index steps = 0; is_low_[h / 2] && steps < count; ++steps) {
+          const auto& out = out_[origin(h)];
+          if (out.size() != 2) break;
+          const Index before = (out[0] == h ? out[1] : out[0]) ^ 1u;
+          if (feature(before) != feature(h) || feature(before ^ 1u) != feature(h ^ 1u)) break;
+          h = before;
+        }
+        if (is_low_[h / 2]) continue;
+        const auto kind = surface_.edge(h / 2).kind;
+        one = one && (!found || *found == kind);
+        found = kind;
+      }
+      if (one) kind_[e] = found.value_or(Surface::EdgeKind::valley);
+    }
+  }
   /// If both ends are the same place but for what cannot be told where curves are tangent, and it stays near.
   void contract_if_short(Index e, double tolerance, bool up_to_tangency) {
     const auto points = surface_.curve(e, 9);
@@ -243,18 +295,17 @@ class Reduced {
     }
   }
   bool same(Index h, Index after) const {
-    const auto a = surface_.edge(h / 2), b = surface_.edge(after / 2);
-    return a.kind == b.kind && feature(h) == feature(after) && feature(h ^ 1u) == feature(after ^ 1u);
+    return kind_[h / 2] == kind_[after / 2] && feature(h) == feature(after) && feature(h ^ 1u) == feature(after ^ 1u);
   }
   void add(Index h) {
     if (chain_of_[h] != none) return;
     Chain c;
     c.left = feature(h), c.right = feature(h ^ 1u);
-    const auto edge = surface_.edge(h / 2);
-    c.kind = edge.kind, c.curve = edge.curve;
+    c.kind = kind_[h / 2], c.curve = surface_.edge(h / 2).curve;
     Index g = h;
     for (;;) {
       c.half_edges.push_back(g);
+      if (is_low_[g / 2]) c.curve = std::nullopt;
       chain_of_[g] = Index(chains_.size());
       const Index end = origin(g ^ 1u);
       if (is_kept(end)) break;
@@ -272,7 +323,8 @@ class Reduced {
   std::vector<Index> origin_, next_, previous_;
   double tangent_;                    // where curves are tangent, they are told apart from so far on
   std::vector<Index> vertex_, face_;  // with which one each is one
-  std::vector<bool> alive_;
+  std::vector<bool> alive_, is_low_;
+  std::vector<Surface::EdgeKind> kind_;  // of each edge
   std::vector<std::vector<Index>> ends_;  // half-edges that begin in each vertex
   std::vector<Point3> place_;             // of each vertex, at the height of its uppermost edge
   std::vector<std::vector<Index>> out_;
@@ -333,13 +385,14 @@ class Comparer {
         return "only the first has a vertex" + at(a_.place(v)) +
                (best == none
                     ? ""
-                    : "; the nearest of the second is off by " + std::to_string(std::log10(least)) + " (log10)");
+                    : "; the nearest of the second is off by " + std::to_string(std::log10(least)) + " (log10)") +
+               "; around it:" + text_around(a_, v);
       }
       partner_[v] = best;
       used[best] = true;
     }
     for (const Index w : second) {
-      if (!used[w]) return "only the second has a vertex" + at(b_.place(w));
+      if (!used[w]) return "only the second has a vertex" + at(b_.place(w)) + "; around it:" + text_around(b_, w);
     }
     return std::nullopt;
   }
@@ -351,12 +404,25 @@ class Comparer {
   struct Spoke {
     Index left, right, other_end;
     Surface::EdgeKind kind;
-    Surface::Curve curve;
-    bool operator==(const Spoke&) const = default;
+    std::optional<Surface::Curve> curve;
+    bool operator==(const Spoke& other) const {
+      return left == other.left && right == other.right && other_end == other.other_end && kind == other.kind && are_alike(curve, other.curve);
+    }
   };
+  static bool are_alike(std::optional<Surface::Curve> a, std::optional<Surface::Curve> b) { return !a || !b || *a == *b; }
   Spoke spoke(const Reduced& r, Index h, bool map) const {
     const Chain& c = r.chain(h);
     return {c.left, c.right, map ? partner_[c.to] : c.to, c.kind, c.curve};
+  }
+
+  std::string text_around(const Reduced& r, Index v) const {
+    std::string text;
+    for (const Index h : r.around(v)) {
+      const Spoke s = spoke(r, h, false);
+      text += " " + std::to_string(int(s.left)) + "|" + std::to_string(int(s.right)) + " kind " + std::to_string(int(s.kind)) +
+              " curve " + (s.curve ? std::to_string(int(*s.curve)) : "any") + " to" + at(r.place(s.other_end)) + ",";
+    }
+    return text;
   }
 
   std::optional<std::string> compare_around(Index v) {
@@ -373,17 +439,7 @@ class Comparer {
       for (std::size_t i = 0; i < a.size(); ++i) pair_faces(a[i], b[(i + shift) % b.size()]);
       return std::nullopt;
     }
-    std::string text = "edges differ around the vertex" + at(a_.place(v)) + ":";
-    for (const bool second : {false, true}) {
-      text += second ? " /" : "";
-      for (const Index h : second ? b : a) {
-        const Spoke s = second ? spoke(b_, h, false) : spoke(a_, h, true);
-        text += " " + std::to_string(int(s.left)) + "|" + std::to_string(int(s.right)) + " kind " +
-                std::to_string(int(s.kind)) + " curve " + std::to_string(int(s.curve)) + " to " +
-                std::to_string(int(s.other_end)) + ",";
-      }
-    }
-    return text;
+    return "edges differ around the vertex" + at(a_.place(v)) + ":" + text_around(a_, v) + " /" + text_around(b_, partner_[v]);
   }
 
   std::optional<std::string> pair_closed() {
@@ -398,7 +454,7 @@ class Comparer {
       for (std::size_t k = 0; k < b_.chains().size() && !found; ++k) {
         const Chain& d = b_.chains()[k];
         if (d.from != none || used[k] || d.left != c.left || d.right != c.right || d.kind != c.kind ||
-            d.curve != c.curve)
+            !are_alike(d.curve, c.curve))
           continue;
         // The labels tell the curve; which component of it, the places.
         double least = std::numeric_limits<double>::infinity(), longest = 0;

@@ -14,7 +14,9 @@ namespace krepl::test {
 ///  - vertices at which one edge merely goes on as itself;
 ///  - vertices at which two edges that go on as themselves touch, with one label between them on both sides of the place:
 ///    whether what is there is one face or two is less than any tolerance tells;
-///  - edges both ends of which are the same place within the tolerance: their ends count as one vertex.
+///  - edges both ends of which are the same place within the tolerance: their ends count as one vertex;
+///  - whether an edge is a wall or a valley where it is both within half the tolerance (a wall so low that the ball at its top
+///    touches what is below; a valley all along the end of a feature): it counts as what it goes on as.
 /// Equal means: vertices can be paired so that partners are the same place; around partners the same labels, kinds of
 /// edge and curve, and partners at the other ends follow each other; closed edges without a vertex likewise, halfway
 /// points on each other's curve; and faces correspond, with as many loops each.
