@@ -74,6 +74,10 @@ int meetings(const Curve& p, const Curve& q, Vec (&out)[2]) {
 }
 
 bool within(const Curve& e, Vec p) {
+  // Curves that are all but parallel meet anywhere, and from afar everything is in the same direction.
+  const Box box = e.box();
+  const Real beside = 1e-9L * (box.x1 - box.x0 + box.y1 - box.y0);
+  if (!(box.square_distance(p) <= beside * beside)) return false;
   if (e.bow) return e.bow->spans(p);
   if (is_round(e)) return e.sweeps(p - e.c);
   const Vec d = e.b - e.a;

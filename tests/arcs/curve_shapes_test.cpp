@@ -159,6 +159,21 @@ TEST(CurveShape, CapsAndJoins) {
     EXPECT_NEAR(area(smooth, Cap::flat, join), 2 * (8 + 3 * M_PI), 1e-10);
 }
 
+/// Two arcs over one chord that differ by less than 1e-10 of the coordinates turn back into each other, and pieces of their
+/// zone are all but parallel.
+TEST(CurveShape, FlatArcsOverOneChord) {
+  ShapeOptions o;
+  o.distance = 1, o.cap = Cap::square, o.join = Join::mitre, o.mitre_limit = 1.375;
+  const double side = 2 * std::sqrt(8.0);
+  const Zone far = checked({{curve({{400962, 5400002}, {400962.70537349756, 5400001.2946026158}, {400964, 5400000}}, {1}),
+                             curve({{400964, 5400000}, {400962.92770613194, 5400001.0722938683}, {400962, 5400002}}, {1})},
+                            1},
+                           o);
+  EXPECT_NEAR(far.area(), side, 1e-3);
+  const Zone near = checked({{curve({{-2, 2}, {-1.0001, 0.9999}, {0, 0}}, {1}), curve({{0, 0}, {-1.000000001, 0.999999999}, {-2, 2}}, {1})}, 1}, o);
+  EXPECT_NEAR(near.area(), side, 1e-3);
+}
+
 TEST(CurveShapes, CapsAndJoinsOfEveryFamily) {
   std::mt19937_64 random(seed() + 2);
   for (int f = 0; f < int(CurveFamily::count); ++f) {
