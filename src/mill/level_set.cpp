@@ -38,7 +38,7 @@ struct Passage {
 class Tracer {
  public:
   Tracer(const LiftedCutter& cutter, double level, const LevelSetOptions& options, const Context& context, int lattice)
-      : cutter_(cutter), bodies_(cutter, level, options.grain), o_(options), context_(context) {
+      : bodies_(cutter, level, options.grain), o_(options), context_(context) {
     const Terrain& terrain = cutter.drop.terrain();
     const double margin = cutter.drop.radius() + 2 * options.cell;
     const Point3 low = terrain.lowest(), high = terrain.highest();
@@ -158,7 +158,6 @@ class Tracer {
     return follow(found, q, depth + 1, points);
   }
 
-  const LiftedCutter& cutter_;
   LevelBodies bodies_;
   const LevelSetOptions& o_;
   const Context& context_;

@@ -66,8 +66,9 @@ void expect_complete(const Terrain& part, const std::shared_ptr<const Terrain>& 
     ToolPath one;
     one.start = from, one.moves = {m};
     Point3 before = from;
+    auto& level = chords[m.end.z];
     walk(one, is_arc(m) ? 0.02 * radius : 1e300, 1, [&](Point3 p, const Move&) {
-      chords[m.end.z].push_back({before, p});
+      level.push_back({before, p});
       before = p;
     });
   }
@@ -184,12 +185,8 @@ TEST(Waterline, TurnsTheWayAskedFor) {
     for (const auto& [from, m] : level_moves(milled->path, o.motion.feed)) {
       const double dx = m.end.x - from.x, dy = m.end.y - from.y, far = std::hypot(dx, dy);
       if (is_arc(m) || far < 0.5) continue;
-      const auto height = [&](double aside) {
-        return cutter
-            ->at({(from.x + m.end.x) / 2 - origin.x - aside * dy / far,
-                  (from.y + m.end.y) / 2 - origin.y + aside * dx / far})
-            .height;
-      };
+      const Point middle{(from.x + m.end.x) / 2 - origin.x, (from.y + m.end.y) / 2 - origin.y};
+      const auto height = [&](double aside) { return cutter->at({middle.x - aside * dy / far, middle.y + aside * dx / far}).height; };
       if (height(0.05) == height(-0.05)) continue;
       ++(height(0.05) > height(-0.05) ? left : right);
     }

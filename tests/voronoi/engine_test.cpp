@@ -58,7 +58,8 @@ KREPL_FOR_ALL_FAMILIES(VoronoiEngine);
 ZoneCase overlapping_parallels(std::mt19937_64& random) {
   static constexpr double triples[][3] = {{3, 4, 5}, {5, 12, 13}, {8, 15, 17}, {7, 24, 25}, {1, 0, 1}};
   const auto pick = [&](int below) { return int(random() % std::uint64_t(below)); };
-  const auto& [dx, dy, span] = triples[pick(5)];
+  const auto& triple = triples[pick(5)];
+  const double dx = triple[0], dy = triple[1], span = triple[2];
   constexpr double scales[] = {1, 1e7, 0.125};
   const double scale = scales[pick(3)];
   ZoneCase c;
