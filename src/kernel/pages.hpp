@@ -73,12 +73,14 @@ class Store {
   }
 
  private:
-  // What glibc always takes from the system and gives back to it at once.
-  static constexpr std::size_t least = (std::size_t{1} << 25) / sizeof(T);
-  static constexpr std::align_val_t aligned{std::size_t{1} << 21};
+  // In bytes: from small ones, as many a store keeps little, to what glibc always takes from the system and gives back
+  // to it at once.
+  static constexpr std::size_t first_piece = std::size_t{1} << 14, last_piece = std::size_t{1} << 25, growth = 4;
+  static constexpr std::size_t large_page = std::size_t{1} << 21;
 
   struct Free {
-    void operator()(T* memory) const { ::operator delete(memory, aligned); }
+    std::align_val_t alignment;
+    void operator()(T* memory) const { ::operator delete(memory, alignment); }
   };
   struct Piece {
     std::unique_ptr<T, Free> memory;
@@ -88,9 +90,11 @@ class Store {
   T* take(std::size_t count) {
     const std::lock_guard lock(mutex_);
     if (pieces_.empty() || pieces_.back().count - pieces_.back().used < count) {
-      const std::size_t size = std::max(count, least);
-      pieces_.push_back({std::unique_ptr<T, Free>(static_cast<T*>(::operator new(size * sizeof(T), aligned))), size, 0, 0});
-      advise_large_pages(pieces_.back().memory.get(), size * sizeof(T));
+      const std::size_t bytes = std::max(count * sizeof(T), next_piece_);
+      next_piece_ = std::min(growth * bytes, last_piece);
+      const std::align_val_t alignment{bytes < large_page ? alignof(T) : large_page};
+      pieces_.push_back({{static_cast<T*>(::operator new(bytes, alignment)), Free{alignment}}, bytes / sizeof(T), 0, 0});
+      advise_large_pages(pieces_.back().memory.get(), bytes);
     }
     Piece& piece = pieces_.back();
     T* const place = piece.memory.get() + piece.used;
@@ -100,6 +104,7 @@ class Store {
 
   std::mutex mutex_;
   std::vector<Piece> pieces_;
+  std::size_t next_piece_ = first_piece;
 };
 
 }  // namespace krepl::kernel
