@@ -110,6 +110,7 @@ Status take_post(const MillVerbOptions& o, MillPlan& plan) {
   a.arcs = !o.no_arcs;
   // GRBL cuts arcs as chords that are within 0.002 mm ($12) of them.
   if (plan.gcode.post == GcodePost::grbl) a.arc_error = plan.gcode.inches ? 0.002 / 25.4 : 0.002;
+  a.least_arc_radius = plan.gcode.inches ? 0.0001 : 0.002;
   if (a.control_point == ControlPoint::tip && !plan.parallel.tool.cutter)
     plan.gcode.below_centre = plan.parallel.tool.radius;
   a.tolerance = plan.gcode.inches ? 0.0004 : 0.01;

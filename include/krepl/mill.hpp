@@ -39,6 +39,8 @@ struct MillAccuracy {
   bool arcs = true;                                ///< arcs in planes along x or y, of waterlines in level ones
   /// How far inside of its arcs a controller's chords may be; arcs stay so far above the surface (GRBL: 0.002 mm).
   double arc_error = 0;
+  /// Smaller arcs are cut as lines. LinuxCNC refuses radii below 0.00127 mm or 0.00005 in.
+  double least_arc_radius = 0;
 };
 
 /// Where and how fast the tool moves between cuts.

@@ -58,7 +58,7 @@ bool CurveFit::arc_holds(LatticePoint p, const FittedMove& arc, std::size_t next
   const CurvePoint from{t(p.i), z(p.k)}, to{t(arc.end.i), z(arc.end.k)};
   const double r0 = std::sqrt(squared_distance(from, centre)), r1 = std::sqrt(squared_distance(to, centre));
   const double least = std::min(r0, r1), most = std::max(r0, r1);
-  if (most - least > 1.5 * unit || least <= 8 * unit) return false;
+  if (most - least > 1.5 * unit || least <= std::max(8 * unit, options_.least_radius)) return false;
   const bool over = arc.kind == FittedMove::Kind::over;
   // An arc that turns back would pass over places that are not looked at.
   if (over ? std::min(from.z, to.z) < centre.z : std::max(from.z, to.z) > centre.z) return false;

@@ -28,6 +28,7 @@ struct FitOptions {
   double band = 0;         ///< how far above the curve the moves may be, measured normal to them; many units
   double arc_lift = 0;     ///< how far arcs over a top stay above the curve, for controllers that cut chords instead
   double most_radius = 0;  ///< of arcs; 0: no arcs
+  double least_radius = 0;
 };
 
 /// Lines and arcs between points of a lattice that are nowhere below a run of a drive curve (except for arcs, of which

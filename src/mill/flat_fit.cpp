@@ -75,7 +75,7 @@ bool FlatFit::find_arc(FlatPoint start, std::size_t first, std::size_t last, Fla
   const Point centre{p.x + (dot(m, m) * q.y - dot(q, q) * m.y) / twice,
                      p.y + (dot(q, q) * m.x - dot(m, m) * q.x) / twice};
   // Small ones are no better than lines, and a controller's check of radii is relative.
-  if (const double radius = length(p - centre); !(radius >= 64 * o_.lattice.unit && radius <= o_.most_radius))
+  if (const double radius = length(p - centre); !(radius >= std::max(64 * o_.lattice.unit, o_.least_radius) && radius <= o_.most_radius))
     return false;
   arc.centre = centre_near(centre, p, place(arc.end));
   arc.turn = twice > 0 ? 1 : -1;

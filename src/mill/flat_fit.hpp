@@ -23,6 +23,7 @@ struct FlatFitOptions {
   PlaneLattice lattice;
   double within = 0;       ///< largest distance of moves from the polyline: at least 2 units
   double most_radius = 0;  ///< of arcs; 0: none
+  double least_radius = 0;
 };
 
 /// Fits lines and arcs between lattice points to a polyline of a level plane.

@@ -88,7 +88,7 @@ PassResult make_pass(const mill::LiftedCutter& cutter, const mill::PassLayout& l
                 o.bottom.has_value(), runs);
   PassResult result;
   result.touches = curve.touches();
-  mill::FitOptions fit{layout.step, o.accuracy.unit, plan.z0, plan.band, o.accuracy.arc_error, 0};
+  mill::FitOptions fit{layout.step, o.accuracy.unit, plan.z0, plan.band, o.accuracy.arc_error, 0, o.accuracy.least_arc_radius};
   if (o.accuracy.arcs && layout.is_along_axis()) fit.most_radius = 64 * (plan.radius + cutter.drop.terrain().extent());
   const PassMoves in_space(layout, plan, o);
   for (const CurveRun& run : runs) {

@@ -82,6 +82,7 @@ class OffsetRougher {
     fit_.lattice = {o_.accuracy.unit, origin_};
     fit_.within = std::max(first_ / 4, 2 * o_.accuracy.unit);
     if (o_.accuracy.arcs) fit_.most_radius = 64 * (plan_.radius + part.extent());
+    fit_.least_radius = o_.accuracy.least_arc_radius;
   }
 
   ToolPath path;
@@ -307,7 +308,7 @@ class OffsetRougher {
     const FlatPoint centre = rounded(raster_.place(farthest));
     const double room = std::min(field_.distance()[farthest] - first_, 0.9 * radius_);
     const auto r = std::int64_t(std::floor(room / o_.accuracy.unit));
-    if (room < radius_ / 4 || r < 1) return false;
+    if (room < radius_ / 4 || r < 1 || room < 2 * o_.accuracy.least_arc_radius) return false;
     const FlatPoint ends[2] = {{centre.i + r, centre.j}, {centre.i - r, centre.j}};
     Piece rotated = piece;
     if (piece.is_closed) start_near(rotated, flat(place(ends[0], k_)));

@@ -63,6 +63,7 @@ class LevelCuts {
     fit_.lattice = {o.accuracy.unit, part.origin()};
     fit_.within = band.within * 3 / 4;  // the rest is for the polyline
     if (o.accuracy.arcs) fit_.most_radius = 64 * (plan.radius + part.extent());
+    fit_.least_radius = o.accuracy.least_arc_radius;
   }
 
   Cut make(const LevelLine& line, std::int64_t k) const {

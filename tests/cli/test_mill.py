@@ -275,16 +275,30 @@ class Mill(support.CliTest):
         self.program()
         self.succeed("verify", "out.ngc", "--against", "part.off", "--tool", "ball:3")
 
-    def test_the_interpreter_accepts_it(self):
-        self.need("rs274")
-        self.program()
+    def interpreted(self):
         self.write("tool.tbl", "T1 P1 D3 Z0\n")
         self.write("rs274.var", "5161 0\n5162 0\n5163 0\n5220 1\n")
         done = subprocess.run(["rs274", "-g", "-t", "tool.tbl", "-v", "rs274.var", "out.ngc"], cwd=self.directory,
                               capture_output=True, text=True, timeout=60)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("PROGRAM_END", done.stdout)
-        self.assertIn("ARC_FEED", done.stdout)
+        return done.stdout
+
+    def test_the_interpreter_accepts_it(self):
+        self.need("rs274")
+        self.program()
+        self.assertIn("ARC_FEED", self.interpreted())
+
+    def test_arcs_too_small_for_the_interpreter_are_lines(self):
+        self.need("rs274")
+        lines = PART.splitlines()
+        small = [" ".join(repr(float(x) / 1000) for x in line.split()) for line in lines[2:12]]
+        self.write("small.off", "\n".join(lines[:2] + small + lines[12:]) + "\n")
+        for options in (("--step-over", 0.0005), ("--strategy", "waterline", "--step-down", 0.0005)):
+            with self.subTest(options=options):
+                self.succeed("mill", "small.off", "out.ngc", "--tool", "ball:0.0025", "--tolerance", 4e-6, "--decimals", 7, *options)
+                self.interpreted()
+                self.succeed("verify", "out.ngc", "--against", "small.off", "--tool", "ball:0.0025")
 
 
 class Messages(support.CliTest):
