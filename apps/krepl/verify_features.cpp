@@ -60,11 +60,7 @@ Result<Loaded> load(const FeatureVerification& job, Session& session, bool& faul
   Loaded all;
   const verify::InputRequest& in = job.input;
   fault_of_result = false;
-  input::FeatureRequest request;
-  request.network.path = in.path, request.network.layer = in.layer, request.network.where = in.where;
-  request.network.crs = in.crs, request.network.to_crs = in.to_crs, request.network.arc_error = in.arc_error;
-  request.radius_field = in.radius_field, request.radius_expression = in.radius_expression;
-  request.group_field = job.features.dissolve_by;
+  input::FeatureRequest request{verify::network_request(in), in.radius_field, in.radius_expression, job.features.dissolve_by};
   request.network.keep_arcs =
       groups_take_arcs(job.features, job.shape, !in.radius_field.empty() || !in.radius_expression.empty());
   auto data = input::read_features(request, session.context("reading"));

@@ -8,6 +8,21 @@
 
 namespace krepl::input {
 
+namespace {
+
+/// `middles`: of the part's arcs, if the network can have some.
+template <class Builder, class... Middles>
+void add(Builder& builder, const Parts& parts, std::size_t i, std::int64_t feature, const Middles&... middles) {
+  const std::span<const Point> vertices(parts.points.data() + parts.begin[i], parts.begin[i + 1] - parts.begin[i]);
+  switch (parts.kind[i]) {
+    case Parts::Kind::line: builder.add_line(vertices, middles..., feature); break;
+    case Parts::Kind::ring: builder.add_ring(vertices, middles..., feature); break;
+    case Parts::Kind::point: builder.add_point(vertices.front(), feature); break;
+  }
+}
+
+}  // namespace
+
 Result<Collected> collect(GeometrySource& source, const ArcTreatment& arcs, const Context& context, const Seen& seen) {
   Collected all;
   all.parts.arc_error = arcs.error;
@@ -62,22 +77,11 @@ Result<std::optional<OGRSpatialReference>> crs_of_data(const NetworkRequest& req
 }
 
 void add_part(Network::Builder& builder, const Parts& parts, std::size_t i, std::int64_t feature) {
-  std::span<const Point> vertices(parts.points.data() + parts.begin[i], parts.begin[i + 1] - parts.begin[i]);
-  switch (parts.kind[i]) {
-    case Parts::Kind::line: builder.add_line(vertices, feature); break;
-    case Parts::Kind::ring: builder.add_ring(vertices, feature); break;
-    case Parts::Kind::point: builder.add_point(vertices.front(), feature); break;
-  }
+  add(builder, parts, i, feature);
 }
 
 void add_part(CurveNetwork::Builder& builder, const Parts& parts, std::size_t i, std::int64_t feature) {
-  std::span<const Point> vertices(parts.points.data() + parts.begin[i], parts.begin[i + 1] - parts.begin[i]);
-  const std::vector<std::uint32_t> middles = parts.middles_of(i);
-  switch (parts.kind[i]) {
-    case Parts::Kind::line: builder.add_line(vertices, middles, feature); break;
-    case Parts::Kind::ring: builder.add_ring(vertices, middles, feature); break;
-    case Parts::Kind::point: builder.add_point(vertices.front(), feature); break;
-  }
+  add(builder, parts, i, feature, parts.middles_of(i));
 }
 
 Result<Network> build_network(const Parts& parts, const Context& context) {

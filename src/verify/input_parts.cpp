@@ -41,9 +41,7 @@ std::vector<InputPart> plain(const input::Parts& parts) {
 }
 
 Result<std::vector<InputPart>> read_parts_with_radii(const InputRequest& request, const Context& context) {
-  const input::NetworkRequest network{request.path,   request.layer,     request.where,    request.crs,
-                                      request.to_crs, request.arc_error, request.keep_arcs};
-  auto features = input::read_features({network, request.radius_field, request.radius_expression, ""}, context);
+  auto features = input::read_features({network_request(request), request.radius_field, request.radius_expression, ""}, context);
   if (!features) return features.error();
   std::vector<InputPart> parts = plain(features->parts);
   for (std::size_t f = 0; f < features->size(); ++f) {
@@ -54,6 +52,11 @@ Result<std::vector<InputPart>> read_parts_with_radii(const InputRequest& request
 }
 
 }  // namespace
+
+input::NetworkRequest network_request(const InputRequest& request) {
+  return {request.path,   request.layer,     request.where,    request.crs,
+          request.to_crs, request.arc_error, request.keep_arcs};
+}
 
 Result<std::vector<InputPart>> read_parts(const InputRequest& request, const Context& context) {
   if (!request.radius_field.empty() || !request.radius_expression.empty()) return read_parts_with_radii(request, context);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "input/network_reader.hpp"
 #include "krepl/context.hpp"
 #include "krepl/error.hpp"
 #include "verify/obstacle.hpp"
@@ -16,6 +17,9 @@ struct InputRequest {
   bool keep_arcs = false;  ///< without `arc_error` arcs are kept
   std::string radius_field = {}, radius_expression = {};  ///< a radius of its own for each part
 };
+
+/// What a reader of the input is asked for.
+input::NetworkRequest network_request(const InputRequest& request);
 
 /// Lines, rings and points as they are in the file, after projection. Stops before Network, whose welding and shift of
 /// origin the verifier must not share.

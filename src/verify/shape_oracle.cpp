@@ -67,17 +67,14 @@ void append_elements(const InputPart& part, std::vector<Element>& out) {
 ShapeOracle::Picture ShapeOracle::picture_of(const std::vector<InputPart>& parts, bool border_only) {
   std::vector<Element> elements;
   Box around;
-  double largest = 0;
   for (const InputPart& part : parts) {
     append_elements(part, elements);
-    for (const Point p : part.vertices) {
-      around.add(vec(coordinates(p)));
-      largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
-    }
+    for (const Point p : part.vertices) around.add(vec(coordinates(p)));
   }
   // Arcs are one if their middles are, but for rounding of the places that tell them: far from the origin these are coarser.
-  const double extent = double(std::max(around.x1 - around.x0, around.y1 - around.y0));
-  const double grain = std::max({1e-10 * extent, 0x1p-50 * largest, 1e-300});
+  const Real extent = std::max(around.x1 - around.x0, around.y1 - around.y0);
+  const Real largest = std::max(std::max(-around.x0, around.x1), std::max(-around.y0, around.y1));
+  const double grain = std::max({1e-10 * double(extent), 0x1p-50 * double(largest), 1e-300});
   std::map<std::pair<std::int64_t, Element::Key>, int> count;
   if (border_only)
     for (const Element& e : elements) ++count[{e.part.feature, e.key(grain)}];
