@@ -155,13 +155,9 @@ class Reduced {
     return {c.x - s * n.x, c.y - s * n.y, c.z - s * n.z};
   }
   bool touches(const Surface::Edge& edge, LongPoint c, double tolerance) const {
-    const double radius = surface_.radius();
-    if (edge.kind == Surface::EdgeKind::rim) {  // upright: at whatever height
+    if (edge.kind == Surface::EdgeKind::rim)  // upright: at whatever height
       return std::fabs(double(wall_excess(upper(edge), c))) <= tolerance;
-    }
-    const auto touched = [&](Index f) {
-      return std::fabs(double(nearest_on(surface_.terrain().corners(f), c).distance) - radius) <= tolerance;
-    };
+    const auto touched = [&](Index f) { return std::fabs(double(excess(f, c))) <= tolerance; };
     if (!touched(edge.feature[0]) || !touched(edge.feature[1])) return false;
     const LongPoint q = foot(edge.feature[0], c), r = foot(edge.feature[1], c);
     return edge.kind != Surface::EdgeKind::seam || std::hypot(q.x - r.x, q.y - r.y, q.z - r.z) <= 4 * tolerance;
@@ -192,21 +188,23 @@ class Reduced {
     const auto edge = surface_.edge(e);
     if (edge.kind == Surface::EdgeKind::seam) return false;
     const std::vector<Point3> points = surface_.curve(e, 9);
-    const auto at_all = [&](auto&& holds) {
-      return std::ranges::all_of(points, [&](Point3 p) { return std::fabs(double(holds(LongPoint{p.x, p.y, p.z}))) <= tolerance * exact; });
+    const auto at_all = [&](auto&& off) {
+      return std::ranges::all_of(points, [&](Point3 p) { return std::fabs(double(off(LongPoint{p.x, p.y, p.z}))) <= tolerance * exact; });
     };
     if (edge.kind == Surface::EdgeKind::rim) {
       const Index below = feature(edge.feature[0] == none ? 2 * e : 2 * e + 1);
-      if (below == none) return false;
-      const auto corners = surface_.terrain().corners(below);
-      return at_all([&](LongPoint c) { return nearest_on(corners, c).distance - surface_.radius(); });
+      return below != none && at_all([&](LongPoint c) { return excess(below, c); });
     }
     return std::ranges::any_of(edge.feature, [&](Index f) {
       return f != none && at_all([&](LongPoint c) { return wall_excess(f, c); }) &&
              std::ranges::all_of(points, [&](Point3 p) { return std::fabs(double(foot(f, {p.x, p.y, p.z}).z - p.z)) <= 4 * tangent_; });
     });
   }
-  /// By how much a place is farther in the plane than a feature's walls.
+  /// By how much a ball's centre is too far from a feature to touch it.
+  Long excess(Index f, LongPoint c) const {
+    return nearest_on(surface_.terrain().corners(f), c).distance - surface_.radius();
+  }
+  /// The same in the plane, of the feature's walls.
   Long wall_excess(Index f, LongPoint c) const {
     Terrain::Corners flat = surface_.terrain().corners(f);
     for (Point3& p : flat.point) p.z = double(c.z);
