@@ -56,7 +56,8 @@ struct ShapeOptions {
 /// border. Nothing may be left: a zone without rings. Features that overlap are cut by each other's borders.
 ///
 /// One-sided zones end straight across at the ends of lines. In a network each place belongs to what is nearest to it, so
-/// facing sides of different kinds meet half-way; they go with round joins and no other option.
+/// facing sides of different kinds meet half-way, and mitres end where something else is nearer than their vertex. They go with
+/// joins and no other option.
 ///
 /// Errors: usage for options out of range or that do not go together, lines or points to be shrunk (with the feature),
 /// `ring` without polygons; those of compute_zone.

@@ -21,7 +21,6 @@ Status check_options(const Network& network, const ShapeOptions& o) {
   if (o.distance < 0) return usage("a one-sided zone has no negative radius", "choose the other side");
   if (network.has_polygons())
     return usage("a polygon has no left or right side", "use a negative radius, or a ring, for one side of its border");
-  if (o.join != Join::round) return usage("one-sided zones have round joins only", "leave the join out");
   if (o.cap == Cap::square) return usage("one-sided zones end straight across", "leave the cap out");
   return std::monostate{};
 }

@@ -1,15 +1,15 @@
-// One-sided zones out of the Voronoi diagram: the union of the faces of the wanted sides, each as far as the radius.
+// One-sided zones out of the Voronoi diagram: the union of the faces of the wanted sides, each as far as the radius or the join.
 #include "shape/one_sided.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "kernel/vectors.hpp"
+#include "shape/face_links.hpp"
 #include "voronoi/bisector.hpp"
 #include "voronoi/diagram.hpp"
 #include "voronoi/site_boxes.hpp"
 #include "zone/assembly.hpp"
-#include "zone/crossing.hpp"
 #include "zone/precision.hpp"
 #include "zone/shaped_rings.hpp"
 
@@ -44,27 +44,28 @@ std::vector<bool> wanted_elements(const Network& network, const zone::Instance& 
   return wanted;
 }
 
-/// The part of a wanted face within the radius: the site itself, links as far as they are near enough, and the site's
-/// own offset between them, counter-clockwise.
+/// What the zone holds of a wanted face: the site itself, pieces of links, and the site's own offset or join between
+/// them, counter-clockwise.
 struct Item {
   enum class Kind : std::uint8_t { base, link, level };
   Kind kind;
   Index face;
-  Index link;        // links: the link
-  Point start, end;  // relative to the network's origin
+  Index link, piece;  // links: the link, and which piece of all
+  Point start, end;   // relative to the network's origin
   Index next;        // around the face
 };
 
 class Outline {
  public:
-  Outline(const Network& network, const Diagram& diagram, const zone::Instance& instance, std::vector<bool> wanted,
-          double max_error)
+  Outline(const Network& network, const Diagram& diagram, const zone::Instance& instance,
+          const ShapeOptions& options, double max_error)
       : network_(network),
         d_(diagram),
         in_(instance),
-        wanted_(std::move(wanted)),
         max_error_(max_error),
-        item_of_(diagram.link_count(), none) {
+        wanted_(wanted_elements(network, instance, options.side)),
+        links_(diagram, instance, wanted_, options),
+        item_of_(links_.pieces().size(), none) {
     for (Index f = 0; f < d_.face_count(); ++f)
       if (wanted_[f]) add_face(f);
   }
@@ -81,8 +82,9 @@ class Outline {
         append(items_[i], rings.piece);
         i = items_[i].next;
         for (std::size_t turns = 0; is_inside(i); ++turns) {
-          const Index other = item_of_[d_.twin[items_[i].link]];
-          if (other == none || turns > items_.size()) return unsound(items_[i].start);
+          if (d_.twin[items_[i].link] == none || turns > items_.size()) return unsound(items_[i].start);
+          const Index other = item_of_[links_.twin(items_[i].link, items_[i].piece)];
+          if (other == none) return unsound(items_[i].start);
           i = items_[other].next;
         }
       }
@@ -99,9 +101,7 @@ class Outline {
   }
   bool is_inside(Index i) const {
     const Item& item = items_[i];
-    if (item.kind != Item::Kind::link) return false;
-    const Index other = d_.label[item.link];
-    return other < voronoi::site_itself && wanted_[other];
+    return item.kind == Item::Kind::link && links_.pieces()[item.piece].held_beyond;
   }
   Point site_start(Index face) const {
     return in_.vertices()[in_.is_side(face) ? in_.ends(face).from : in_.vertex_of(face)];
@@ -125,26 +125,27 @@ class Outline {
 
   void add_part(Index f, Index first, Index last, Point start, Point end) {
     const std::size_t begin = items_.size();
-    const double radius = in_.radius();
     Point at = start;
-    bool above = false;
+    bool outside = false;
     for (Index i = first; i < last; ++i) {
-      const Index vertex = d_.vertex[i];
-      const bool ends_above = d_.clearance[vertex] > radius;
-      if (d_.minimum[i] <= radius) {
-        if (above) {
-          const Point down = zone::crossing(in_, f, d_.label[i]);
-          items_.push_back({Item::Kind::level, f, none, at, down, none});
-          at = down;
+      for (Index k = links_.begin(i); k < links_.begin(i + 1); ++k) {
+        const auto& piece = links_.pieces()[k];
+        if (!piece.held) {
+          outside = true;
+          continue;
         }
-        const Point to = ends_above ? zone::crossing(in_, d_.label[i], f) : i + 1 == last ? end : d_.place[vertex];
-        item_of_[i] = Index(items_.size());
-        items_.push_back({Item::Kind::link, f, i, at, to, none});
+        if (outside) {
+          items_.push_back({Item::Kind::level, f, none, none, at, piece.start, none});
+          at = piece.start;
+          outside = false;
+        }
+        const Point to = i + 1 == last && k + 1 == links_.begin(i + 1) ? end : piece.end;
+        item_of_[k] = Index(items_.size());
+        items_.push_back({Item::Kind::link, f, i, k, at, to, none});
         at = to;
-        above = ends_above;
       }
     }
-    if (in_.is_side(f)) items_.push_back({Item::Kind::base, f, none, end, start, none});
+    if (in_.is_side(f)) items_.push_back({Item::Kind::base, f, none, none, end, start, none});
     for (std::size_t i = begin; i < items_.size(); ++i) items_[i].next = Index(i + 1 < items_.size() ? i + 1 : begin);
   }
 
@@ -155,6 +156,7 @@ class Outline {
       p.from_vertex = true;
     }
     if (item.kind == Item::Kind::level) {
+      if (const BendRegion* bend = links_.region(item.face)) return append_join(*bend, item, p, out);
       p.reversed = !p.from_vertex && (item.face & 1u) != 0;
       if (p.from_vertex) {
         p.kind = Zone::Kind::arc;
@@ -169,20 +171,31 @@ class Outline {
     out.push_back(p);
   }
 
+  /// Mitres are made of the offsets of the two sides.
+  static void append_join(const BendRegion& bend, const Item& item, Zone::Piece p, std::vector<Zone::Piece>& out) {
+    for (const auto& s : bend.stretches(item.start, item.end)) {
+      p.start = s.start, p.end = s.end;
+      p.role = Zone::Role::bevel;
+      if (s.border.side != none) {
+        p.role = Zone::Role::offset;
+        p.source = s.border.side >> 1;
+        p.from_vertex = false;
+        p.reversed = (s.border.side & 1u) != 0;
+      }
+      out.push_back(p);
+    }
+  }
+
   void append_link(const Item& item, Zone::Piece p, std::vector<Zone::Piece>& out) const {
     const Index other = d_.label[item.link];
     const bool mixed = in_.is_side(item.face) != in_.is_side(other);
     const Index side = in_.is_side(item.face) ? item.face : other, circle = in_.is_side(item.face) ? other : item.face;
-    if (mixed) {
-      const Index v = in_.vertex_of(circle);
-      const auto ends = in_.ends(side);
-      if (ends.from == v || ends.to == v) {  // across the end of a line
-        p.role = Zone::Role::end;
-        p.source = v;
-        p.from_vertex = true;
-        out.push_back(p);
-        return;
-      }
+    if (links_.is_perpendicular(item.face, item.link)) {  // across the end of a line
+      p.role = Zone::Role::end;
+      p.source = in_.vertex_of(circle);
+      p.from_vertex = true;
+      out.push_back(p);
+      return;
     }
     p.role = Zone::Role::between;
     if (!mixed) {
@@ -206,11 +219,20 @@ class Outline {
   const Network& network_;
   const Diagram& d_;
   const zone::Instance& in_;
-  std::vector<bool> wanted_;
   double max_error_;
-  std::vector<Index> item_of_;  // of links of wanted faces
+  std::vector<bool> wanted_;
+  FaceLinks links_;
+  std::vector<Index> item_of_;  // of pieces of links
   std::vector<Item> items_;
 };
+
+/// A mitre goes on along the offset of a side.
+bool is_same_offset(const Zone::Piece& a, const Zone::Piece& b) {
+  const auto is_offset = [](const Zone::Piece& p) {
+    return p.kind == Zone::Kind::segment && p.role == Zone::Role::offset;
+  };
+  return is_offset(a) && is_offset(b) && a.source == b.source && a.reversed == b.reversed;
+}
 
 /// Drops pieces that are too short to be told, then rings that enclose nothing.
 zone::ShapedRings cleaned(const zone::ShapedRings& rings, double resolution, double radius, ZoneCounters& counters) {
@@ -226,7 +248,15 @@ zone::ShapedRings cleaned(const zone::ShapedRings& rings, double resolution, dou
         if (!kept.empty()) kept.back().end = p.end;
         continue;
       }
+      if (!kept.empty() && is_same_offset(kept.back(), p)) {
+        kept.back().end = p.end;
+        continue;
+      }
       kept.push_back(p);
+    }
+    if (kept.size() > 2 && is_same_offset(kept.back(), kept.front())) {
+      kept.front().start = kept.back().start;
+      kept.pop_back();
     }
     if (kept.size() > 1) kept.front().start = kept.back().end;
     double twice = 0, perimeter = 0;
@@ -256,8 +286,10 @@ Result<Zone> one_sided(std::shared_ptr<const Network> network, const ShapeOption
   const auto precision = zone::precision_for(*network, radius);
   if (!precision) return precision.error();
   if (network->segments().empty()) return ZoneAssembly::finish(network, radius, {}, 0, {}, context);
-  if (radius >= voronoi::horizon_in_extents * network->extent())
-    return Error{ErrorCode::usage, "the radius is beyond 2^20 extents of the lines", "", "give a smaller one"};
+  const double farthest = options.join == Join::mitre ? options.mitre_limit * radius : radius;
+  if (farthest >= voronoi::horizon_in_extents * network->extent())
+    return Error{ErrorCode::usage, "the zone reaches beyond 2^20 extents of the lines", "",
+                 "give a smaller radius or mitre limit"};
   const zone::Instance shape(*network, 0, 0, 1, context);
   const voronoi::Sites sites(shape, context);
   const voronoi::SiteBoxes boxes(shape, context);
@@ -265,7 +297,7 @@ Result<Zone> one_sided(std::shared_ptr<const Network> network, const ShapeOption
   if (!diagram) return diagram.error();
   const zone::Instance instance(shape, radius, precision->effective_radius, precision->resolution);
   const double max_error = options.max_error > 0 ? options.max_error : radius * 1e-6;
-  const Outline outline(*network, *diagram, instance, wanted_elements(*network, instance, options.side), max_error);
+  const Outline outline(*network, *diagram, instance, options, max_error);
   auto rings = outline.rings();
   if (!rings) return rings.error();
   ZoneCounters counters;

@@ -263,7 +263,7 @@ bool ShapeOracle::on_side(const Corner& c, Vec direction) const {
 
 bool ShapeOracle::side_holds(Vec p) const {
   const auto hit = sides_.nearest(p);
-  if (!(hit.distance <= radius_)) return false;
+  if (!(hit.distance <= reach_)) return false;
   const auto vertex = corners_.nearest(p);
   if (corners_.items()[vertex.item].arms.empty() && vertex.distance < hit.distance) return false;
   const Side& s = sides_.items()[hit.item];
@@ -271,8 +271,14 @@ bool ShapeOracle::side_holds(Vec p) const {
   const Real along = dot(p - s.a, u);
   if (along <= 0 || along >= verify::distance(s.a, s.b)) {  // a vertex is what is nearest
     const Corner& c = corners_.items()[vertex.item];
-    return on_side(c, p - c.at);
+    if (!on_side(c, p - c.at)) return false;
+    // Only the join in the gap above 180 degrees holds places that are nearest to the vertex.
+    std::vector<Depth> joins;
+    in_corner(c, p, joins);
+    const Real slack = -1e-17L * reach_;
+    return std::any_of(joins.begin(), joins.end(), [&](const Depth& d) { return d.outer >= 0 && d.walls >= slack; });
   }
+  if (!(hit.distance <= radius_)) return false;
   // On the left of a b: on the left of lines that run from a to b.
   const bool left = cross(u, p - s.a) > 0;
   return left == (question_.side == ShapeQuestion::Side::left) ? s.forward : s.backward;

@@ -109,12 +109,15 @@ class Placing {
   }
 
   void evaluate() {
-    const Link& best = link(orbit_[0]);
+    const bool at_horizon = std::any_of(orbit_.begin(), orbit_.end(), [&](Index k) { return link(k).label == none; });
+    // The bisector of two places next to each other leads away from them, and how far is told best by what sees the horizon.
+    const Link& best =
+        link(!at_horizon ? orbit_[0] : *std::max_element(orbit_.begin(), orbit_.end(), [&](Index a, Index b) {
+          return link(a).clearance < link(b).clearance;
+        }));
     double least = best.clearance, most = least, spread = 0;
-    bool at_horizon = false;
     for (const Index k : orbit_) {
       const Link& l = link(k);
-      at_horizon = at_horizon || l.label == none;
       least = std::min(least, l.clearance), most = std::max(most, l.clearance);
       spread = std::max(spread, std::abs(l.end.x - best.end.x) + std::abs(l.end.y - best.end.y));
     }

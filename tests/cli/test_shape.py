@@ -34,6 +34,9 @@ class Shape(support.CliTest):
         right, = self.area(CORNER, "--radius", "5", "--side", "right")
         self.assertAlmostEqual(left, 1000 - 25, places=5)
         self.assertAlmostEqual(right, 1000 + 25 * PI / 4, places=5)
+        for options, corner in ((("mitre",), 25), (("bevel",), 12.5), (("mitre", "--mitre-limit", "1.4"), 12.5)):
+            right, = self.area(CORNER, "--radius", "5", "--side", "right", "--join", *options)
+            self.assertAlmostEqual(right, 1000 + corner, places=5)
 
     def test_negative_radii(self):
         shrunk, gone = self.area(FRAME, "--radius=-5,-30")

@@ -97,6 +97,8 @@ TEST(ShapeZones, OneSideOfEveryFamily) {
       const ZoneCase c = random_case(Family(f), random);
       ShapeOptions o;
       o.distance = c.radius, o.side = k % 2 == 0 ? Side::left : Side::right;
+      o.join = Join(k / 2 % 3);
+      o.mitre_limit = 1 + double(random() % 40) / 8;
       o.max_error = 1e-4 * c.radius;
       SCOPED_TRACE(text(c) + " " + text(o));
       const auto zone = shape_of(c, o);
@@ -124,6 +126,36 @@ TEST(ShapeZones, KnownAreas) {
   EXPECT_NEAR(area(Cap::flat, Join::mitre, 1.4), 39.5, 1e-12);
   EXPECT_NEAR(area(Cap::square, Join::mitre), 44, 1e-12);
   EXPECT_NEAR(area(Cap::round, Join::mitre), 40 + M_PI, 1e-12);
+  const auto one_side = [&](Side side, Join join, double limit = 5) {
+    ShapeOptions o;
+    o.distance = 1, o.side = side, o.join = join, o.mitre_limit = limit;
+    return shape_of(corner, o)->area();
+  };
+  EXPECT_NEAR(one_side(Side::right, Join::round), 20 + M_PI / 4, 1e-12);
+  EXPECT_NEAR(one_side(Side::right, Join::mitre), 21, 1e-12);
+  EXPECT_NEAR(one_side(Side::right, Join::bevel), 20.5, 1e-12);
+  EXPECT_NEAR(one_side(Side::right, Join::mitre, 1.4), 20.5, 1e-12);
+  EXPECT_NEAR(one_side(Side::left, Join::mitre), 19, 1e-12);
+}
+
+/// A mitre's tip ends half-way to another line, and is one piece with the offset that it prolongs.
+TEST(ShapeZones, MitresOfOneSideMeetOtherLines) {
+  const auto near = line({{12, -3}, {12, 3}});
+  const ZoneCase c{{line({{0, 0}, {10, 0}, {0, 5}}), near}, 3};
+  for (const Side side : {Side::left, Side::right}) {
+    for (const Join join : {Join::mitre, Join::bevel}) {
+      ShapeOptions o;
+      o.distance = c.radius, o.side = side, o.join = join, o.max_error = 1e-4 * c.radius;
+      const auto zone = shape_of(c, o);
+      ASSERT_TRUE(zone.ok()) << zone.error().text();
+      const auto fault = fault_in(*zone, c, o);
+      EXPECT_FALSE(fault.has_value()) << *fault;
+    }
+  }
+  const ZoneCase alone{{line({{0, 0}, {10, 0}, {10, 10}})}, 1};
+  ShapeOptions o;
+  o.distance = 1, o.side = Side::right, o.join = Join::mitre;
+  EXPECT_EQ(shape_of(alone, o)->piece_count(), 6u);
 }
 
 /// The definition is tested too: a zone of another shape is found out.

@@ -259,6 +259,13 @@ TEST(VoronoiDiagram, FoldedSegmentsAtOneVertex) {
   }
 }
 
+/// Their bisector leads away to the horizon, and where it gets there rounding of one view of it does not tell.
+TEST(VoronoiDiagram, EndsNextToEachOtherOnTheHull) {
+  expect_sound({{line({{-7.9984776461706728, 13.454529175907194}, {0.77943593285942225, 3.0647152603897894}}),
+                 line({{-1.5058433946984011, 6.908866453379936}, {-7.9984776462335727, 13.454529175809231},
+                       {-5.6511632667268534, 6.0053604165609205}})}});
+}
+
 TEST(VoronoiDiagram, ControlPointsMakeParabolasExact) {
   const auto diagram = VoronoiDiagram::build(shared({{line({{-10, 1}, {10, 1}}), point(0, 5)}}));
   int parabolas = 0;
