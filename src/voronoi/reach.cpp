@@ -7,8 +7,10 @@ namespace krepl::voronoi {
 
 void Reach::start(Vector<double> base) {
   base_ = base;
-  open_ = false;
+  open_ = of_side_ = false;
+  below_ = slack_;
   disks_.clear();
+  base_strips_.clear();
   strips_.clear();
   sectors_.clear();
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -23,6 +25,7 @@ void Reach::widen(Vector<double> c, double half) {
 void Reach::add_disk(Vector<double> centre, double radius) {
   const double r = radius + (wider - 1) * std::min(radius, most_) + slack_;
   disks_.push_back({centre, r * r});
+  below_ = std::max(below_, r - radius);
   widen(centre, r);
 }
 
@@ -44,6 +47,8 @@ void Reach::update(const SideCell<Real>& cell, const SideCell<double>& frame, Ve
                    const KnownEmpty& known) {
   start(base);
   const Vector<double> outwards = frame.plane({0, 1});
+  of_side_ = true;
+  outwards_ = outwards;
   double before = 0;
   Vector<double> start_touch{};  // on the base
   for (std::size_t i = 0; i < cell.arcs().size(); ++i) {
@@ -56,7 +61,9 @@ void Reach::update(const SideCell<Real>& cell, const SideCell<double>& frame, Ve
     const Vector<double> end_touch = frame.plane({end, 0});
     if (!known.joints[i]) add_disk(start_touch + joint * outwards, joint);
     if (!known.arcs[i]) {
-      add_strip(start_touch, end_touch, outwards, arc.curve.is_line ? height : std::min(height, double(arc.curve.at.y)));
+      const double high = arc.curve.is_line ? height : std::min(height, double(arc.curve.at.y));
+      base_strips_.push_back({begin - slack_, end + slack_, high * wider + slack_});
+      for (const Vector<double> corner : {start_touch, end_touch, start_touch + high * outwards, end_touch + high * outwards}) widen(corner, slack_);
       if (arc.curve.label != none && arc.curve.is_line) {
         const Vector<double> n = frame.plane({double(arc.curve.normal.x), double(arc.curve.normal.y)});
         add_strip(start_touch + first * (outwards - n), end_touch + last * (outwards - n), n, height);
@@ -101,27 +108,6 @@ void Reach::update(const VertexCell<Real>& cell, const VertexCell<double>& frame
   }
   if (!known.joints.back()) add_disk(before * u, before);
   close();
-}
-
-bool Reach::meets(const SiteBoxes::Box& box) const {
-  const Vector<double> c = box.centre - base_, h = box.half;
-  for (const Disk& d : disks_) {
-    const double dx = std::max(std::abs(c.x - d.centre.x) - h.x, 0.0),
-                 dy = std::max(std::abs(c.y - d.centre.y) - h.y, 0.0);
-    if (dx * dx + dy * dy <= d.square) return true;
-  }
-  for (const Strip& s : strips_) {
-    const Vector<double> v = c - s.origin, n = s.normal;
-    const double up = dot(v, n), half = std::abs(n.x) * h.x + std::abs(n.y) * h.y;
-    if (up + half < -slack_ || up - half > s.height) continue;
-    const double along = n.x * v.y - n.y * v.x, half_width = std::abs(n.y) * h.x + std::abs(n.x) * h.y;
-    if (along + half_width >= s.low && along - half_width <= s.high) return true;
-  }
-  const auto highest = [&](Vector<double> d) { return dot(d, c) + std::abs(d.x) * h.x + std::abs(d.y) * h.y; };
-  for (const Sector& s : sectors_) {
-    if (highest({-s.first.y, s.first.x}) >= -slack_ && highest({s.last.y, -s.last.x}) >= -slack_) return true;
-  }
-  return false;
 }
 
 template void Reach::update(const SideCell<double>&, const SideCell<double>&, Vector<double>, const KnownEmpty&);

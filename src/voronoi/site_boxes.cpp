@@ -1,9 +1,5 @@
 #include "voronoi/site_boxes.hpp"
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
 #include <cmath>
 #include <limits>
 
@@ -27,26 +23,6 @@ SiteBoxes::SearchWindow::SearchWindow(const Box& box)
       high_x(float_above(centre.x + half.x)),
       low_y(float_below(centre.y - half.y)),
       high_y(float_above(centre.y + half.y)) {}
-
-unsigned SiteBoxes::Node::meeting(const SearchWindow& window) const {
-  const float low_x = window.low_x, high_x = window.high_x, low_y = window.low_y, high_y = window.high_y;
-  unsigned bits = 0;
-#ifdef __SSE2__
-  for (int k = 0; k < arity; k += 4) {
-    __m128 meets = _mm_cmple_ps(_mm_loadu_ps(min_x + k), _mm_set1_ps(high_x));
-    meets = _mm_and_ps(meets, _mm_cmpge_ps(_mm_loadu_ps(max_x + k), _mm_set1_ps(low_x)));
-    meets = _mm_and_ps(meets, _mm_cmple_ps(_mm_loadu_ps(min_y + k), _mm_set1_ps(high_y)));
-    meets = _mm_and_ps(meets, _mm_cmpge_ps(_mm_loadu_ps(max_y + k), _mm_set1_ps(low_y)));
-    bits |= unsigned(_mm_movemask_ps(meets)) << k;
-  }
-#else
-  for (int k = 0; k < arity; ++k) {
-    const bool meets = min_x[k] <= high_x && max_x[k] >= low_x && min_y[k] <= high_y && max_y[k] >= low_y;
-    bits |= unsigned(meets) << k;
-  }
-#endif
-  return bits;
-}
 
 SiteBoxes::SiteBoxes(const Instance& instance, const Context& context) {
   Context quiet;
