@@ -634,19 +634,45 @@ PointOf<Real> Cells<Real>::known_beside(Point p) const {
   return level_of_walls(p).value_or(p);
 }
 
+/// Height of a place around which are all turns: of the highest label there. Of what is equally high but for rounding, by what is
+/// least steep.
+template <class Real>
+Real Cells<Real>::vertex_height(Point at) const {
+  const PatchSet<Real>& patches = envelope_.patches();
+  struct Reading {
+    Real z, slope;
+  };
+  Reading highest{below_everything, 0};
+  const auto each_reading = [&](auto&& take) {
+    for (const Turn& t : turns_) {
+      if (t.after == none) continue;
+      // Near the rim heights fall like square roots; the rim's own height is as near to the surface.
+      const bool ends =
+          std::any_of(turns_.begin(), turns_.end(), [&](const Turn& wall) { return is_wall_of(wall, t.after); });
+      take(Reading{ends ? envelope_.wall_height(t.after, at) : envelope_.border_height(t.after, at),
+                   size(patches.gradient(t.after, at))});
+      const std::optional<Real> along = envelope_.straight_seam_height(t.before, t.after, at);
+      if (along) take(Reading{*along, size(envelope_.rim_gradient(
+                                           patches[t.after].kind == Terrain::FeatureKind::edge ? t.after : t.before))});
+    }
+  };
+  each_reading([&](Reading r) {
+    if (r.z > highest.z) highest = r;
+  });
+  Reading best = highest;
+  const Real noise = 0x1p-13 * envelope_.thickness();  // 2^-47 S: of doubles, as what is written is rounded to these
+  each_reading([&](Reading r) {
+    const Real rounding = noise * (1 + std::max(r.slope, highest.slope));
+    if (r.slope < best.slope && highest.z - r.z <= std::min(rounding, 0x1p-20 * patches.radius())) best = r;
+  });
+  return best.z;
+}
+
 template <class Real>
 void Cells<Real>::add_vertex(Point at) {
-  Real z = below_everything;
-  for (const Turn& t : turns_) {
-    if (t.after == none) continue;
-    // Near the rim heights fall like square roots; the rim's own height is as near to the surface.
-    const bool ends =
-        std::any_of(turns_.begin(), turns_.end(), [&](const Turn& wall) { return is_wall_of(wall, t.after); });
-    z = std::max(z, ends ? envelope_.wall_height(t.after, at) : envelope_.border_height(t.after, at));
-  }
   arms_.clear();
   for (const Turn& t : turns_) arms_.push_back(Link::crossing(t.crossing, t.side));
-  map_.add_vertex({double(at.x), double(at.y), double(z)}, arms_);
+  map_.add_vertex({double(at.x), double(at.y), double(vertex_height(at))}, arms_);
 }
 
 template class Cells<double>;

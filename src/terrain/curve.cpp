@@ -221,6 +221,18 @@ bool is_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge
   });
 }
 
+/// The seam of a face and an edge is a straight line, all but level perhaps where they are all but upright.
+std::optional<Height> height_on_straight_seam(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 p) {
+  if (edge.kind != Surface::EdgeKind::seam || edge.curve != Curve::line) return std::nullopt;
+  Contact<double> line = contact_of(terrain, edge.feature[0]), face = contact_of(terrain, edge.feature[1]);
+  if (line.kind == FeatureKind::face) std::swap(line, face);
+  if (line.kind != FeatureKind::edge || face.kind != FeatureKind::face) return std::nullopt;
+  const Vector3 v = Vector3(p) - line.at - radius * face.direction;
+  const double flat = std::hypot(line.direction.x, line.direction.y);
+  const double along = (v.x * line.direction.x + v.y * line.direction.y) / (flat * flat);
+  return Height{line.at.z + radius * face.direction.z + along * line.direction.z, std::fabs(line.direction.z) / flat};
+}
+
 double height_on_edge(const Terrain& terrain, double radius, const Surface::Edge& edge, Point3 p) {
   std::array<Height, 2> found;
   std::size_t count = 0;
@@ -230,6 +242,8 @@ double height_on_edge(const Terrain& terrain, double radius, const Surface::Edge
   if (count == 0) return p.z;
   if (count == 1) return found[0].z;
   const auto [a, b] = found;
+  const std::optional<Height> seam = height_on_straight_seam(terrain, radius, edge, p);
+  if (seam && seam->slope < std::min(a.slope, b.slope)) return seam->z;
   // Of nearly the same height the less steep one is known the better.
   const bool first =
       std::fabs(a.z - b.z) <= 0x1p-14 * radius ? a.slope <= b.slope : std::fabs(a.z - p.z) <= std::fabs(b.z - p.z);

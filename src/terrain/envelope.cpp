@@ -118,6 +118,16 @@ Real Envelope<Real>::border_height(Index i, Point p) const {
   return rim_at(i, p) != nullptr ? rim_height(i, p) : clamped_height(i, p);
 }
 
+template <class Real>
+std::optional<Real> Envelope<Real>::straight_seam_height(Index a, Index b, Point p) const {
+  if (a == none || b == none) return std::nullopt;
+  if (patches_[a].kind != FeatureKind::edge) std::swap(a, b);
+  const Patch &e = patches_[a], &f = patches_[b];
+  if (e.kind != FeatureKind::edge || f.kind != FeatureKind::face) return std::nullopt;
+  if (patches_.seam(a, b) == nullptr) return std::nullopt;
+  return axis_height(a, p) + e.q * e.q * patches_.radius() * f.flat;
+}
+
 /// Gradient of a function that vanishes along the curve between two labels.
 template <class Real>
 GradientOf<Real> Envelope<Real>::gradient_across(Index a, Index b, Meeting how, Point p) const {

@@ -130,6 +130,9 @@ class Envelope {
   const Bound* rim_at(Index patch, Point p) const;
   /// Height at p, a place on the border of the patch's domain: at a rim that of the rim.
   Real border_height(Index patch, Point p) const;
+  /// Along a straight seam, a face's with an edge: that of the line, which may be all but level where the patches are all but
+  /// upright. Nothing if there is none between the two.
+  std::optional<Real> straight_seam_height(Index a, Index b, Point p) const;
   Meeting meeting(Index a, Index b, Point p) const;
   /// Of the patches on the two sides of a wall the upper one: where both are equally high but for what is too low to show, the
   /// one that ends there, else the higher one, else the first.

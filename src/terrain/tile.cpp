@@ -40,6 +40,7 @@ class ChainWriter {
   }
 
   void write() {
+    leave_out_closed_slivers();
     tile_.vertices.reserve(cells_.vertices().size());
     tile_.arm_begin.reserve(cells_.vertices().size() + 1);
     for (const auto& v : cells_.vertices()) {
@@ -69,6 +70,34 @@ class ChainWriter {
   }
 
  private:
+  /// A straight edge cannot cross a line, turn round and come back: where it seems to, rounding made a patch of nothing.
+  void leave_out_closed_slivers() {
+    const auto& crossings = cells_.crossings();
+    for (Index l = 4; l < cells_.lines().size(); ++l) {
+      const CellLine& line = cells_.lines()[l];
+      for (Index k = 0; k + 1 < line.crossing_count; ++k) {
+        const Index c = line.first_crossing + k, d = c + 1;
+        const auto &in = crossings[c], &out = crossings[d];
+        const auto are_linked = [&](int side) {
+          return in.link[side].word == Link::crossing(d, side).word && out.link[side].word == Link::crossing(c, side).word;
+        };
+        if (out.after != label_before(c) || out.t - in.t > envelope_.tolerance() || !are_linked(0) || !are_linked(1) ||
+            !is_straight(c) || !is_straight(d))
+          continue;
+        passed_[c] = passed_[d] = true;
+        cells_.unite(cells_.piece(l, k), cells_.piece(l, k + 1));
+      }
+    }
+  }
+
+  bool is_straight(Index c) const {
+    const auto& crossing = cells_.crossings()[c];
+    if (crossing.meeting == Meeting::rim) return false;
+    const Surface::Edge edge{
+        edge_kind(crossing.meeting), Surface::Curve::line, {feature(label_before(c)), feature(crossing.after)}};
+    return curve_kind(terrain_, edge) == Surface::Curve::line;
+  }
+
   /// The side of the tile's own side lines that lies outside.
   static int outside(int tile_side) { return tile_side == 1 || tile_side == 2 ? 1 : 0; }
 

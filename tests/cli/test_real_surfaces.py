@@ -43,6 +43,22 @@ class RealSurfaces(support.CliTest):
                     done = self.krepl(*arguments)
                     self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def test_walls_that_lean_by_rounding(self):
+        """A mould with its walls upright but for 1e-9: seams of what is that steep, and holes whose rims all but meet in a point."""
+        path = os.path.join(DATA, "mesh/ktoolcav.off")
+        if not os.path.exists(path):
+            self.skipTest("KREPL_DATA has no mesh/ktoolcav.off")
+        with open(path, encoding="ascii") as file:
+            header, counts, *rest = file.read().split("\n")
+        corners = int(counts.split()[0])
+        for i, (x, y, z) in enumerate(line.split() for line in rest[:corners]):
+            rest[i] = f"{x} {z[1:] if z.startswith('-') else '-' + z} {y}"
+        self.write("upright.off", "\n".join([header, counts, *rest]))
+        for radius in ("0.098019", "0.98019", "3.2673"):
+            with self.subTest(radius=radius):
+                self.succeed("terrain", "upright.off", "surface.json", "--radius", radius, "--quiet")
+                self.succeed("verify", "surface.json", "--against", "upright.off", "--radius", radius)
+
     def test_sound(self):
         if not os.path.isdir(DATA):
             self.skipTest("KREPL_DATA names no directory")
