@@ -46,6 +46,7 @@ _krepl() {
     --minimise) mapfile -t COMPREPLY < <(compgen -W "length climb" -- "$current"); return ;;
     --ties) mapfile -t COMPREPLY < <(compgen -W "high low" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "mm cm m km in ft" -- "$current"); return ;;
+    --up) mapfile -t COMPREPLY < <(compgen -W "x y z -x -y -z" -- "$current"); return ;;
     --split) mapfile -t COMPREPLY < <(compgen -W "rising falling shorter" -- "$current"); return ;;
     --to-crs) mapfile -t COMPREPLY < <(compgen -W "auto EPSG:" -- "$current"); return ;;
     --crs) mapfile -t COMPREPLY < <(compgen -W "EPSG:" -- "$current"); return ;;

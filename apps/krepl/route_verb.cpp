@@ -39,15 +39,13 @@ Status read_preference(const std::string& text, RouteOptions& route) {
 
 /// What is for terrains only, if it is given.
 std::optional<Error> refuse_terrain_options(const RouteVerbOptions& options) {
-  const std::string band = options.terrain.request.band != 0 ? "given" : "";
-  for (const auto& [name, text] :
-       {std::pair{"--ceiling", &options.ceiling}, std::pair{"--max-slope", &options.max_slope},
-        std::pair{"--minimise", &options.minimise}, std::pair{"--step", &options.step},
-        std::pair{"--z-scale", &options.terrain.z_scale}, std::pair{"--split", &options.terrain.split},
-        std::pair{"--band", &band}})
-    if (!text->empty())
-      return Error{ErrorCode::usage, fmt::format("{} is for terrains, but IN is neither a raster nor a mesh", name), "",
-                   "leave it out"};
+  const char* given = options.terrain.given_reading_option();
+  for (const auto& [name, text] : {std::pair{"--ceiling", &options.ceiling}, std::pair{"--max-slope", &options.max_slope},
+                                   std::pair{"--minimise", &options.minimise}, std::pair{"--step", &options.step}})
+    if (!text->empty()) given = name;
+  if (given != nullptr)
+    return Error{ErrorCode::usage, fmt::format("{} is for terrains, but IN is neither a raster nor a mesh", given), "",
+                 "leave it out"};
   return std::nullopt;
 }
 

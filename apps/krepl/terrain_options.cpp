@@ -28,7 +28,22 @@ Result<Terrain::Split> parse_split(const std::string& text) {
   return Error{ErrorCode::usage, "--split '" + text + "' is unknown", "", "give rising, falling or shorter"};
 }
 
+Result<input::Axis> parse_axis(const std::string& text) {
+  using input::Axis;
+  for (const auto& [name, axis] : {std::pair{"x", Axis::x}, std::pair{"y", Axis::y}, std::pair{"z", Axis::z},
+                                   std::pair{"-x", Axis::minus_x}, std::pair{"-y", Axis::minus_y}, std::pair{"-z", Axis::minus_z}})
+    if (text == name) return axis;
+  return Error{ErrorCode::usage, "--up '" + text + "' is unknown", "", "give x, y, z, -x, -y or -z (as --up=-x)"};
+}
+
 }  // namespace
+
+const char* TerrainOptions::given_reading_option() const {
+  if (!z_scale.empty()) return "--z-scale";
+  if (!split.empty()) return "--split";
+  if (request.band != 0) return "--band";
+  return up.empty() ? nullptr : "--up";
+}
 
 std::string TerrainOptions::name() const { return input_name(request.path); }
 
@@ -52,6 +67,8 @@ void add_reading_options(Verb& verb, TerrainOptions& options, const std::string&
   verb.add_option("--split", options.split, raster + ": diagonal that splits a cell: rising (default), falling, shorter")
       .type_name("NAME");
   verb.add_option("--band", options.request.band, raster + ": band to read (default: 1)").type_name("N").positive();
+  verb.add_option("--up", options.up, (where.empty() ? "Mesh" : where) + ": its axis that points upwards, x, y, z (default), -x, -y, -z")
+      .type_name("AXIS");
 }
 
 Result<input::TerrainRequest> terrain_request(const TerrainOptions& options) {
@@ -65,6 +82,11 @@ Result<input::TerrainRequest> terrain_request(const TerrainOptions& options) {
     const Result<Terrain::Split> split = parse_split(options.split);
     if (!split) return split.error();
     request.split = *split;
+  }
+  if (!options.up.empty()) {
+    const Result<input::Axis> up = parse_axis(options.up);
+    if (!up) return up.error();
+    request.up = *up;
   }
   return request;
 }

@@ -13,16 +13,18 @@ class Session;
 /// The terrain to read, as every verb that takes one has it on its command line.
 struct TerrainOptions {
   input::TerrainRequest request;
-  std::string z_scale, split;  ///< as given
+  std::string z_scale, split, up;  ///< as given
 
   std::string name() const;  ///< as messages have it
+  /// One of the options that add_reading_options declares that is given; null if none is.
+  const char* given_reading_option() const;
 };
 
-/// Declares IN (or the option `name` in its place) and the options --crs, --to-crs, --z-scale, --split and --band.
+/// Declares IN (or the option `name` in its place) and the options --crs, --to-crs, --z-scale, --split, --band and --up.
 /// `options` must live until the verb has run.
 void add_terrain_options(Verb& verb, TerrainOptions& options, const std::string& name = "IN");
 
-/// Declares --z-scale, --split and --band alone, for a verb that names its terrain in its own way. `where` begins their help
+/// Declares --z-scale, --split, --band and --up alone, for a verb that names its terrain in its own way. `where` begins their help
 /// texts where not every input of the verb is a terrain.
 void add_reading_options(Verb& verb, TerrainOptions& options, const std::string& where = "");
 

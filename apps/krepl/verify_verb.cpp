@@ -353,8 +353,8 @@ int run_verify(const VerifyOptions& given, Session& session) {
                          options.max_slope, options.samples}, session);
   if (!options.ceiling.empty() || !options.max_slope.empty())
     return session.fail("", {ErrorCode::usage, "--ceiling and --max-slope belong to routes", "", ""});
-  if (!options.terrain.split.empty() || !options.terrain.z_scale.empty() || options.terrain.request.band != 0)
-    return session.fail("", {ErrorCode::usage, "--split, --z-scale and --band belong to subdivisions (.json) and routes over a terrain", "", ""});
+  if (const char* name = options.terrain.given_reading_option())
+    return session.fail("", {ErrorCode::usage, fmt::format("{} belongs to subdivisions (.json) and routes over a terrain", name), "", ""});
   return extension == "csv" ? verify_profile(options, session) : verify_zones(options, session);
 }
 

@@ -12,8 +12,7 @@
 namespace krepl::app {
 
 bool ViewOptions::has_surface_options() const {
-  return !max_error.empty() || !terrain.request.crs.empty() || !terrain.z_scale.empty() || !terrain.split.empty() ||
-         terrain.request.band != 0;
+  return !max_error.empty() || !terrain.request.crs.empty() || terrain.given_reading_option() != nullptr;
 }
 
 bool ViewOptions::has_program_options() const {

@@ -83,7 +83,7 @@ int run_any_view(const ViewOptions& options, Session& session) {
                              "give a program, .ngc or .gcode"});
   if (is_surface(options.result)) return run_surface_view(options, session);
   if (options.has_surface_options()) {
-    return session.fail("", {ErrorCode::usage, "--max-error, --crs, --z-scale, --split and --band belong to surfaces",
+    return session.fail("", {ErrorCode::usage, "--max-error, --crs, --z-scale, --split, --band and --up belong to surfaces",
                              "", "give a subdivision that krepl terrain wrote, .json or .gpkg"});
   }
   return run_view(options, session);

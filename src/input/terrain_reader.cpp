@@ -43,6 +43,8 @@ Status check_request(const TerrainRequest& request, bool mesh) {
   if (!std::isfinite(request.z_scale) || request.z_scale == 0) {
     return Error{ErrorCode::usage, "the factor of the heights is not a finite number other than zero", "", ""};
   }
+  if (!mesh && request.up != Axis::z)
+    return Error{ErrorCode::usage, "--up is for meshes, not for rasters", "", "leave it out"};
   if (!mesh) return std::monostate{};
   const char* option = request.split             ? "--split"
                        : request.band != 0       ? "--band"
@@ -50,6 +52,19 @@ Status check_request(const TerrainRequest& request, bool mesh) {
                                                  : nullptr;
   if (option == nullptr) return std::monostate{};
   return Error{ErrorCode::usage, std::string(option) + " is for rasters, not for meshes", "", "leave it out"};
+}
+
+/// By a quarter or half turn. Subtracting from zero makes no negative zeros.
+Point3 turned(Point3 p, Axis up) {
+  switch (up) {
+    case Axis::x: return {0 - p.z, p.y, p.x};
+    case Axis::y: return {p.x, 0 - p.z, p.y};
+    case Axis::minus_x: return {p.z, p.y, 0 - p.x};
+    case Axis::minus_y: return {p.x, p.z, 0 - p.y};
+    case Axis::minus_z: return {p.x, 0 - p.y, 0 - p.z};
+    case Axis::z: break;
+  }
+  return p;
 }
 
 /// A mesh is in a plane of unknown place unless --crs names one, which must not be in degrees.
@@ -84,6 +99,7 @@ Result<TerrainFile> from_mesh(std::vector<char> text, MeshFormat format, const T
   Result<TriangleMesh> mesh = read_mesh({text.data(), text.size()}, format, context);
   if (!mesh) return mesh.error();
   text = {};
+  for (Point3& p : mesh->vertices) p = turned(p, request.up);
   if (request.z_scale != 1)
     for (Point3& p : mesh->vertices) p.z *= request.z_scale;
   return finish(Terrain::from_triangles(std::move(mesh->vertices), std::move(mesh->triangles), context), *crs,

@@ -634,36 +634,43 @@ PointOf<Real> Cells<Real>::known_beside(Point p) const {
   return level_of_walls(p).value_or(p);
 }
 
-/// Height of a place around which are all turns: of the highest label there. Of what is equally high but for rounding, by what is
-/// least steep.
+/// Height of a place around which are all turns: of the highest label there. Heights of steep faces hang on the last digits of the
+/// place; what is equally high but for that, and less steep, is known better.
 template <class Real>
 Real Cells<Real>::vertex_height(Point at) const {
   const PatchSet<Real>& patches = envelope_.patches();
+  const Real noise = 0x1p-10 * envelope_.thickness();  // 2^-44 S: of doubles, as what is written is rounded to these
   struct Reading {
     Real z, slope;
+    Real rounding(Real noise, Real radius) const { return std::min(noise * (1 + slope), Real(0x1p-20) * radius); }
   };
-  Reading highest{below_everything, 0};
+  // Along a straight seam the line is as high as the patches on both sides.
+  const auto on_seam = [&](const Turn& t, Reading r) {
+    const std::optional<Real> z = envelope_.straight_seam_height(t.before, t.after, at);
+    if (z && absolute(*z - r.z) <= r.rounding(noise, patches.radius())) r = {*z, 0};
+    return r;
+  };
   const auto each_reading = [&](auto&& take) {
-    for (const Turn& t : turns_) {
+    for (std::size_t i = 0; i < turns_.size(); ++i) {
+      const Turn &t = turns_[i], &next = turns_[(i + 1) % turns_.size()];
       if (t.after == none) continue;
       // Near the rim heights fall like square roots; the rim's own height is as near to the surface.
       const bool ends =
           std::any_of(turns_.begin(), turns_.end(), [&](const Turn& wall) { return is_wall_of(wall, t.after); });
-      take(Reading{ends ? envelope_.wall_height(t.after, at) : envelope_.border_height(t.after, at),
-                   size(patches.gradient(t.after, at))});
-      const std::optional<Real> along = envelope_.straight_seam_height(t.before, t.after, at);
-      if (along) take(Reading{*along, size(envelope_.rim_gradient(
-                                           patches[t.after].kind == Terrain::FeatureKind::edge ? t.after : t.before))});
+      const Reading own{ends ? envelope_.wall_height(t.after, at) : envelope_.border_height(t.after, at),
+                        size(patches.gradient(t.after, at))};
+      const Reading seen = on_seam(next, on_seam(t, own));
+      const bool face = patches[t.after].kind == Terrain::FeatureKind::face;
+      take(Reading{seen.z, face ? seen.slope : Real(0)});
     }
   };
+  Reading highest{below_everything, 0};
   each_reading([&](Reading r) {
     if (r.z > highest.z) highest = r;
   });
   Reading best = highest;
-  const Real noise = 0x1p-13 * envelope_.thickness();  // 2^-47 S: of doubles, as what is written is rounded to these
   each_reading([&](Reading r) {
-    const Real rounding = noise * (1 + std::max(r.slope, highest.slope));
-    if (r.slope < best.slope && highest.z - r.z <= std::min(rounding, 0x1p-20 * patches.radius())) best = r;
+    if (r.slope < best.slope && highest.z - r.z <= highest.rounding(noise, patches.radius())) best = r;
   });
   return best.z;
 }

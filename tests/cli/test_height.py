@@ -185,6 +185,25 @@ class Height(support.CliTest):
         self.assertLess(float(self.height("hills.asc", "at.csv", 0.01, "--split", "falling")[0][2]), 0.1)
         self.assertAlmostEqual(float(self.height("hills.asc", "at.csv", 0.01, "--z-scale", "2")[0][2]), 6.01, delta=1e-12)
 
+    def test_axis_that_points_upwards(self):
+        """The same part lying on each of its sides."""
+        corners = [(0, 0, 0), (10, 0, 1), (0, 9, 2), (11, 12, 5)]
+        lying = {"x": lambda x, y, z: (z, y, -x), "y": lambda x, y, z: (x, z, -y), "z": lambda x, y, z: (x, y, z),
+                 "-x": lambda x, y, z: (-z, y, x), "-y": lambda x, y, z: (x, -z, y), "-z": lambda x, y, z: (x, -y, -z)}
+        self.write("at.csv", "x,y\n3,2\n7,9\n10.5,11.5\n")
+        wanted = None
+        for axis in ("z", "x", "y", "-x", "-y", "-z"):
+            text = "".join("{} {} {}\n".format(*lying[axis](*corner)) for corner in corners)
+            self.write("part.off", f"OFF\n4 2 0\n{text}3 0 1 2\n3 1 3 2\n")
+            found = self.height("part.off", "at.csv", 0.5, *([] if axis == "z" else [f"--up={axis}"]))
+            wanted = wanted or found
+            self.assertEqual(found, wanted, axis)
+        self.fail_with(2, "--up 'w' is unknown; give x, y, z, -x, -y or -z (as --up=-x)",
+                       "height", "part.off", "--radius", "1", "--at", "at.csv", "-o", "out.csv", "--up", "w", output="out.csv")
+        self.write("flat.asc", FLAT)
+        self.fail_with(2, "flat.asc: --up is for meshes, not for rasters; leave it out",
+                       "height", "flat.asc", "--radius", "1", "--at", "at.csv", "-o", "out.csv", "--up", "y", output="out.csv")
+
     def test_same_bytes_for_any_number_of_threads(self):
         self.write("hills.asc", grid(ROWS))
         generator = random.Random(7)
