@@ -634,44 +634,60 @@ PointOf<Real> Cells<Real>::known_beside(Point p) const {
   return level_of_walls(p).value_or(p);
 }
 
-/// Height of a place around which are all turns: of the highest label there. Heights of steep faces hang on the last digits of the
-/// place; what is equally high but for that, and less steep, is known better.
+/// Height of a label at a place around which are all turns. Near the rim heights fall like square roots; the rim's own height is as
+/// near to the surface.
+template <class Real>
+Real Cells<Real>::label_height(Index label, Point at) const {
+  const bool ends = std::any_of(turns_.begin(), turns_.end(), [&](const Turn& wall) { return is_wall_of(wall, label); });
+  return ends ? envelope_.wall_height(label, at) : envelope_.border_height(label, at);
+}
+
+/// Height of such a place: of the highest label there.
 template <class Real>
 Real Cells<Real>::vertex_height(Point at) const {
+  constexpr double least_steep = 64;
+  Real z = below_everything;
+  bool is_steep = false;
+  for (const Turn& t : turns_) {
+    if (t.after == none) continue;
+    z = std::max(z, label_height(t.after, at));
+    const Patch& p = envelope_.patches()[t.after];
+    is_steep = is_steep || (p.kind == Terrain::FeatureKind::face && p.q > least_steep);
+  }
+  return is_steep ? height_beside_steep_face(at) : z;
+}
+
+/// The same where heights of faces hang on the last digits of the place: what is equally high but for that, and less steep, is known
+/// better.
+template <class Real>
+Real Cells<Real>::height_beside_steep_face(Point at) const {
   const PatchSet<Real>& patches = envelope_.patches();
   const Real noise = 0x1p-10 * envelope_.thickness();  // 2^-44 S: of doubles, as what is written is rounded to these
+  const auto rounding = [&](Real slope) { return std::min(noise * (1 + slope), Real(0x1p-20) * patches.radius()); };
   struct Reading {
     Real z, slope;
-    Real rounding(Real noise, Real radius) const { return std::min(noise * (1 + slope), Real(0x1p-20) * radius); }
   };
-  // Along a straight seam the line is as high as the patches on both sides.
-  const auto on_seam = [&](const Turn& t, Reading r) {
-    const std::optional<Real> z = envelope_.straight_seam_height(t.before, t.after, at);
-    if (z && absolute(*z - r.z) <= r.rounding(noise, patches.radius())) r = {*z, 0};
-    return r;
-  };
-  const auto each_reading = [&](auto&& take) {
-    for (std::size_t i = 0; i < turns_.size(); ++i) {
-      const Turn &t = turns_[i], &next = turns_[(i + 1) % turns_.size()];
-      if (t.after == none) continue;
-      // Near the rim heights fall like square roots; the rim's own height is as near to the surface.
-      const bool ends =
-          std::any_of(turns_.begin(), turns_.end(), [&](const Turn& wall) { return is_wall_of(wall, t.after); });
-      const Reading own{ends ? envelope_.wall_height(t.after, at) : envelope_.border_height(t.after, at),
-                        size(patches.gradient(t.after, at))};
-      const Reading seen = on_seam(next, on_seam(t, own));
-      const bool face = patches[t.after].kind == Terrain::FeatureKind::face;
-      take(Reading{seen.z, face ? seen.slope : Real(0)});
+  const auto reading = [&](std::size_t i) {
+    const Index label = turns_[i].after;
+    Real z = label_height(label, at), slope = size(patches.gradient(label, at));
+    // Along a straight seam the line is as high as the patches on both sides.
+    for (const Turn& t : {turns_[i], turns_[(i + 1) % turns_.size()]}) {
+      const std::optional<Real> on_seam = envelope_.straight_seam_height(t.before, t.after, at);
+      if (on_seam && absolute(*on_seam - z) <= rounding(slope)) z = *on_seam, slope = 0;
     }
+    return Reading{z, patches[label].kind == Terrain::FeatureKind::face ? slope : Real(0)};
   };
+  std::vector<Reading> readings;
   Reading highest{below_everything, 0};
-  each_reading([&](Reading r) {
-    if (r.z > highest.z) highest = r;
-  });
+  for (std::size_t i = 0; i < turns_.size(); ++i) {
+    if (turns_[i].after == none) continue;
+    readings.push_back(reading(i));
+    if (readings.back().z > highest.z) highest = readings.back();
+  }
   Reading best = highest;
-  each_reading([&](Reading r) {
-    if (r.slope < best.slope && highest.z - r.z <= highest.rounding(noise, patches.radius())) best = r;
-  });
+  for (const Reading& r : readings) {
+    if (r.slope < best.slope && highest.z - r.z <= rounding(highest.slope)) best = r;
+  }
   return best.z;
 }
 

@@ -145,7 +145,9 @@ class Cells {
   Real bend(const Turn& turn, Point end, const Box& box) const;
   bool wall_keeps_off(const Turn& from, Point to, const Turn& valley) const;
   void connect(const Turn& a, const Turn& b);
+  Real label_height(Index label, Point at) const;
   Real vertex_height(Point at) const;
+  Real height_beside_steep_face(Point at) const;
   void add_vertex(Point at);
 
   CellMap& map_;
