@@ -68,7 +68,7 @@ if "$krepl" terrain --help >/dev/null 2>&1; then
   expect 1 'is not the surface of radius 1: features and labels' "$krepl" verify part.json --against other.off
   expect 1 'nowhere.off' "$krepl" verify part.json --against nowhere.off
   expect 2 'split' "$krepl" verify part.json --against part.off --split up
-  expect 2 'belong to subdivisions' "$krepl" verify zone.wkt --against in.wkt --radius 2 --split falling
+  expect 2 'belongs to subdivisions' "$krepl" verify zone.wkt --against in.wkt --radius 2 --split falling
   sed 's/"radius":1/"radius":/' part.json >broken.json
   expect 1 'broken.json: a number expected, line' "$krepl" verify broken.json --against part.off
   head -c 3000 part.json >short.json
