@@ -52,7 +52,7 @@ struct Item {
   Index face;
   Index link, piece;  // links: the link, and which piece of all
   Point start, end;   // relative to the network's origin
-  Index next;        // around the face
+  Index next;         // around the face
 };
 
 class Outline {
