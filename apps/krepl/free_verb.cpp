@@ -187,9 +187,7 @@ int run_over_terrain(const FreeOptions& options, double radius, const Stopwatch&
 
 /// What is for the other kind of IN, if it is given.
 std::optional<Error> refuse_terrain_options(const FreeOptions& options) {
-  if (const char* name = options.terrain.given_reading_option())
-    return Error{ErrorCode::usage, fmt::format("{} is for terrains, but IN is neither a raster nor a mesh", name), "",
-                 "leave it out"};
+  if (const char* name = options.terrain.given_reading_option()) return for_terrains_only(name);
   return std::nullopt;
 }
 std::optional<Error> refuse_plane_options(const FreeOptions& options) {

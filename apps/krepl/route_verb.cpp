@@ -39,13 +39,10 @@ Status read_preference(const std::string& text, RouteOptions& route) {
 
 /// What is for terrains only, if it is given.
 std::optional<Error> refuse_terrain_options(const RouteVerbOptions& options) {
-  const char* given = options.terrain.given_reading_option();
   for (const auto& [name, text] : {std::pair{"--ceiling", &options.ceiling}, std::pair{"--max-slope", &options.max_slope},
                                    std::pair{"--minimise", &options.minimise}, std::pair{"--step", &options.step}})
-    if (!text->empty()) given = name;
-  if (given != nullptr)
-    return Error{ErrorCode::usage, fmt::format("{} is for terrains, but IN is neither a raster nor a mesh", given), "",
-                 "leave it out"};
+    if (!text->empty()) return for_terrains_only(name);
+  if (const char* name = options.terrain.given_reading_option()) return for_terrains_only(name);
   return std::nullopt;
 }
 

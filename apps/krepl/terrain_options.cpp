@@ -71,6 +71,10 @@ void add_reading_options(Verb& verb, TerrainOptions& options, const std::string&
       .type_name("AXIS");
 }
 
+Error for_terrains_only(const char* option) {
+  return {ErrorCode::usage, std::string(option) + " is for terrains, but IN is neither a raster nor a mesh", "", "leave it out"};
+}
+
 Result<input::TerrainRequest> terrain_request(const TerrainOptions& options) {
   input::TerrainRequest request = options.request;
   if (!options.z_scale.empty()) {

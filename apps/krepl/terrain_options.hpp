@@ -28,6 +28,9 @@ void add_terrain_options(Verb& verb, TerrainOptions& options, const std::string&
 /// texts where not every input of the verb is a terrain.
 void add_reading_options(Verb& verb, TerrainOptions& options, const std::string& where = "");
 
+/// That an option was given for an input that is no terrain.
+Error for_terrains_only(const char* option);
+
 /// What the options mean; an Error of code usage names what is wrong. To be called before anything is read.
 Result<input::TerrainRequest> terrain_request(const TerrainOptions& options);
 

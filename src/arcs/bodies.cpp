@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/arc_circle.hpp"
+#include "shape/join_choice.hpp"
 
 namespace krepl::arcs {
 namespace {
@@ -34,10 +35,6 @@ Border<quad> line(Q p, Q q, Key key) { return {false, false, key, p, q, {}, 0}; 
 Border<quad> arc(Q p, Q q, Q centre, quad radius, Key key) { return {true, false, key, p, q, centre, radius}; }
 
 constexpr Key inside{Key::Kind::inside, none};
-
-// Where a line turns by less, in radians, bevel, arc and mitre differ by less than 2^-43 R: the arc serves for all.
-// Where it turns back by all but this, it ends.
-constexpr double least_bend = 0x1p-20;
 
 bool is_round(const ShapeOptions& o) { return o.cap == Cap::round && o.join == Join::round; }
 
@@ -205,15 +202,12 @@ void Bodies::add_bend(Index v, std::vector<Arm>& arms) {
     if (!(turn > 0) && !around) continue;
     const double angle = around ? M_PI : std::atan2(double(turn), double(dot(d, e)));
     bends_.push_back({v, d, e, first.left, second.right});
-    if (angle > M_PI - least_bend) {
+    if (angle > M_PI - shape::least_bend) {
       if (options_.cap == Cap::round) body(Kind::cap);
       if (options_.cap == Cap::square) add_squares(v, arms);
-    } else if (angle <= least_bend || options_.join == Join::round) {
-      body(Kind::join);
-    } else if (options_.join == Join::mitre && 1 <= options_.mitre_limit * std::cos(angle / 2) * (1 + 1e-14)) {
-      body(Kind::mitre);
     } else {
-      body(Kind::bevel);
+      const Join join = shape::join_of(options_, angle);
+      body(join == Join::round ? Kind::join : join == Join::bevel ? Kind::bevel : Kind::mitre);
     }
     return;
   }

@@ -99,7 +99,8 @@ Result<TerrainFile> from_mesh(std::vector<char> text, MeshFormat format, const T
   Result<TriangleMesh> mesh = read_mesh({text.data(), text.size()}, format, context);
   if (!mesh) return mesh.error();
   text = {};
-  for (Point3& p : mesh->vertices) p = turned(p, request.up);
+  if (request.up != Axis::z)
+    for (Point3& p : mesh->vertices) p = turned(p, request.up);
   if (request.z_scale != 1)
     for (Point3& p : mesh->vertices) p.z *= request.z_scale;
   return finish(Terrain::from_triangles(std::move(mesh->vertices), std::move(mesh->triangles), context), *crs,

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shape/join_choice.hpp"
+
 namespace krepl::shape {
 
 using namespace vectors;
 using zone::Index;
 using zone::none;
-
-namespace {
-constexpr double straight = 0x1p-20;
-}  // namespace
 
 std::optional<BendRegion> BendRegion::at(const zone::Instance& in, Index vertex, const ShapeOptions& options) {
   if (options.join == Join::round) return std::nullopt;
@@ -24,13 +22,14 @@ std::optional<BendRegion> BendRegion::at(const zone::Instance& in, Index vertex,
   };
   const Point before = normal(sector.before), after = normal(sector.after);
   const double angle = std::atan2(cross(before, after), dot(before, after));
-  if (angle <= straight) return std::nullopt;
-  const double radius = in.nominal_radius(), half_cosine = std::cos(angle / 2);
+  const Join join = join_of(options, angle);
+  if (join == Join::round) return std::nullopt;
+  const double radius = in.nominal_radius();
   const Point at = in.vertices()[vertex];
-  if (options.join == Join::mitre && 1 <= options.mitre_limit * half_cosine * (1 + 1e-14))
+  if (join == Join::mitre)
     return BendRegion(at, {{before, radius, sector.before}, {after, radius, sector.after}});
   const Point middle = before + after;
-  return BendRegion(at, {{(1 / length(middle)) * middle, radius * half_cosine, none}});
+  return BendRegion(at, {{(1 / length(middle)) * middle, radius * std::cos(angle / 2), none}});
 }
 
 double BendRegion::excess(Point place) const {

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shape/join_choice.hpp"
+
 namespace krepl::shape {
 namespace {
 
 using Q = Vector<quad>;
 using kernel::square_root;
-
-// Where a line turns by less, in radians, bevel, arc and mitre differ by less than 2^-43 R: the arc serves for all.
-// Where it turns back by all but this, it ends.
-constexpr double straight = 0x1p-20;
 
 Q operator+(Q a, Q b) { return {a.x + b.x, a.y + b.y}; }
 Q operator-(Q a, Q b) { return {a.x - b.x, a.y - b.y}; }
@@ -93,7 +91,7 @@ void Bodies::add_joins(Index v, const std::vector<Arm>& arms) {
   const Q d = direction(sector.before), e = direction(sector.after);
   const double turn = std::atan2(double(cross(d, e)), double(dot(d, e)));
   const double angle = turn < -1 ? M_PI : std::max(turn, 0.0);  // rounding may carry 180 and 0 degrees over
-  const bool folded = arms.size() == 1 || angle > M_PI - straight;
+  const bool folded = arms.size() == 1 || angle > M_PI - least_bend;
   const double overlap = std::min({length(sector.before), length(sector.after), radius_}) / 2;
   if (folded) {
     is_end_[v] = true;
@@ -101,12 +99,10 @@ void Bodies::add_joins(Index v, const std::vector<Arm>& arms) {
       specs_.push_back({Kind::cap, true, sector.before, sector.after, overlap, std::min(most, 0x1p-10 * overlap)});
     return;
   }
-  Kind kind = Kind::join;
-  if (angle > straight && options_.join == Join::bevel) kind = Kind::bevel;
-  if (angle > straight && options_.join == Join::mitre)
-    kind = 1 <= options_.mitre_limit * std::cos(angle / 2) * (1 + 1e-14) ? Kind::mitre : Kind::bevel;
+  const Join join = join_of(options_, angle);
+  const Kind kind = join == Join::round ? Kind::join : join == Join::bevel ? Kind::bevel : Kind::mitre;
   // Moves must not turn a border by what comes near the angle to its neighbour.
-  const double sharpest = std::min(std::max(angle, straight), M_PI - angle) / 2;
+  const double sharpest = std::min(std::max(angle, least_bend), M_PI - angle) / 2;
   const double shortest = kind == Kind::join ? overlap : std::min(overlap, radius_ * std::sin(angle / 2));
   specs_.push_back(
       {kind, false, sector.before, sector.after, overlap, std::min(most, 0x1p-10 * sharpest * sharpest * shortest)});

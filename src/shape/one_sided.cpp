@@ -6,6 +6,7 @@
 
 #include "kernel/vectors.hpp"
 #include "shape/face_links.hpp"
+#include "shape/join_choice.hpp"
 #include "voronoi/bisector.hpp"
 #include "voronoi/diagram.hpp"
 #include "voronoi/site_boxes.hpp"
@@ -39,7 +40,7 @@ std::vector<bool> wanted_elements(const Network& network, const zone::Instance& 
     const auto before = in.ends(sector.before), after = in.ends(sector.after);
     const auto d = in.difference<double>(before.to, before.from), e = in.difference<double>(after.to, after.from);
     const double turn = std::atan2(d.x * e.y - d.y * e.x, d.x * e.x + d.y * e.y);
-    wanted[in.circle(v)] = std::abs(turn) < M_PI - 0x1p-20;  // else all segments leave in one direction: an end
+    wanted[in.circle(v)] = std::abs(turn) < M_PI - least_bend;  // else all segments leave in one direction: an end
   }
   return wanted;
 }

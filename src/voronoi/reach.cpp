@@ -22,6 +22,10 @@ void Reach::widen(Vector<double> c, double half) {
   high_ = {std::max(high_.x, c.x + half), std::max(high_.y, c.y + half)};
 }
 
+void Reach::widen(Vector<double> p, Vector<double> q, Vector<double> up) {
+  for (const Vector<double> corner : {p, q, p + up, q + up}) widen(corner, slack_);
+}
+
 void Reach::add_disk(Vector<double> centre, double radius) {
   const double r = radius + (wider - 1) * std::min(radius, most_) + slack_;
   disks_.push_back({centre, r * r});
@@ -33,7 +37,7 @@ void Reach::add_strip(Vector<double> p, Vector<double> q, Vector<double> n, doub
   const Vector<double> d = q - p;
   const double along = n.x * d.y - n.y * d.x;
   strips_.push_back({p, n, std::min(along, 0.0) - slack_, std::max(along, 0.0) + slack_, height * wider + slack_});
-  for (const Vector<double> corner : {p, q, p + height * n, q + height * n}) widen(corner, slack_);
+  widen(p, q, height * n);
 }
 
 void Reach::close() {
@@ -63,7 +67,7 @@ void Reach::update(const SideCell<Real>& cell, const SideCell<double>& frame, Ve
     if (!known.arcs[i]) {
       const double high = arc.curve.is_line ? height : std::min(height, double(arc.curve.at.y));
       base_strips_.push_back({begin - slack_, end + slack_, high * wider + slack_});
-      for (const Vector<double> corner : {start_touch, end_touch, start_touch + high * outwards, end_touch + high * outwards}) widen(corner, slack_);
+      widen(start_touch, end_touch, high * outwards);
       if (arc.curve.label != none && arc.curve.is_line) {
         const Vector<double> n = frame.plane({double(arc.curve.normal.x), double(arc.curve.normal.y)});
         add_strip(start_touch + first * (outwards - n), end_touch + last * (outwards - n), n, height);

@@ -64,6 +64,8 @@ class Reach {
   void add_disk(Vector<double> centre, double radius);
   void add_strip(Vector<double> p, Vector<double> q, Vector<double> normal, double height);
   void widen(Vector<double> centre, double half);
+  /// Around a strip that stands on p q.
+  void widen(Vector<double> p, Vector<double> q, Vector<double> up);
   void close();
 
   double slack_;  // by which boxes are widened, so that what only the move of vertices brings near is seen
