@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "krepl/context.hpp"
@@ -60,6 +61,13 @@ class Cells {
     double at;
   };
 
+  /// What vanishes along the curve of one turn: a side of a patch's domain, or a difference of heights.
+  struct Condition {
+    const Bound* bound;  // null: heights of a and b
+    Index a, b;
+    bool at_rim;  // b's height where it ends in a wall
+  };
+
   static constexpr std::size_t most_settled = 24;  // candidates; cells with more are cut at once
 
   bool subdivide(const Cell& cell, std::size_t first, int depth);
@@ -88,6 +96,11 @@ class Cells {
   bool settle_star(const Box& box, bool smallest);
   std::optional<Point> star_point(const Box& box) const;
   std::optional<Point> common_point(const Box& box) const;
+  Real value(const Condition& condition, Point p) const;
+  Gradient gradient(const Condition& condition, Point p) const;
+  GradientRange gradient_range(const Condition& condition, const Box& box) const;
+  std::pair<std::size_t, std::size_t> crossing_most(std::span<const Condition> conditions, Point p) const;
+  bool is_met_once(std::span<const Condition> conditions, std::size_t first, std::size_t second, const Box& box) const;
   bool hides_label(Point p) const;
   bool is_steep() const;
   Point least_gap(const Box& box) const;

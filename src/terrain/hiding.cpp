@@ -332,16 +332,24 @@ std::size_t Envelope<Real>::filter(const Box& box, std::span<const Index> champi
   const auto is_champion = [&](Index c) {  // without branches, which nothing predicts
     return bool((c == champion[0]) | (c == champion[1]) | (c == champion[2]) | (c == champion[3]));
   };
-  bool others = false;
+  // Those whose bounding rectangle meets the box: also without branches.
+  out.resize(begin + candidates.size());
+  std::size_t end = begin;
   for (const Index c : candidates) {
-    const Box& around = patches_.box(c);
-    if (!around.meets(box)) continue;
+    out[end] = c;
+    end += std::size_t(patches_.box(c).meets(box));
+  }
+  bool others = false;
+  std::size_t met = begin;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Index c = out[i];
     // A champion is seen at a corner: only a wall can keep it from mattering. All of a domain meets the box anyway.
     const bool seen = is_champion(c);
-    if ((!seen || patches_[c].has_rim) && !box.contains(around) && !domain_meets(c, frame)) continue;
+    if ((!seen || patches_[c].has_rim) && !box.contains(patches_.box(c)) && !domain_meets(c, frame)) continue;
     others = others || !seen;
-    out.push_back(c);
+    out[met++] = c;
   }
+  out.resize(met);
   if ((!small && !far_) || !others || !also_hidden) return 0;
 
   // Of features that lie beside each other as in grids little else is left in large boxes.

@@ -91,7 +91,9 @@ struct BoxOf {
     return {{std::max(low.x, b.low.x), std::max(low.y, b.low.y)}, {std::min(high.x, b.high.x), std::min(high.y, b.high.y)}};
   }
   bool is_empty() const { return !(low.x <= high.x && low.y <= high.y); }
-  bool meets(const BoxOf& b) const { return b.high.x >= low.x && b.low.x <= high.x && b.high.y >= low.y && b.low.y <= high.y; }
+  bool meets(const BoxOf& b) const {  // without branches
+    return bool((b.high.x >= low.x) & (b.low.x <= high.x) & (b.high.y >= low.y) & (b.low.y <= high.y));
+  }
 };
 using Box = BoxOf<double>;
 

@@ -208,19 +208,23 @@ void PatchSet<Real>::refine(const TerrainWindow& window, const PatchSet<double>&
   coarse_ = &coarse;
   radius_ = coarse.radius();
   square_radius_ = radius_ * radius_;
-  patches_.clear();
-}
-
-/// Room for all patches: few windows need any.
-template <class Real>
-void PatchSet<Real>::prepare() {
-  if (!patches_.empty()) return;
+  for (const Index i : loaded_list_) patches_[i] = {}, boxes_[i] = {}, loaded_[i] = false;
+  for (const Index e : placed_list_) edges_[e] = {};
+  loaded_list_.clear();
+  placed_list_.clear();
   bounds_.clear();
   corners_.clear();
-  patches_.assign(coarse_->size(), {});
-  boxes_.assign(coarse_->size(), {});
-  edges_.assign(window_->edges().size(), {});
-  loaded_.assign(coarse_->size(), false);
+}
+
+/// Room for all patches. What is there from windows before is empty: few patches are ever loaded.
+template <class Real>
+void PatchSet<Real>::prepare() {
+  if (patches_.size() < coarse_->size()) {
+    patches_.resize(coarse_->size());
+    boxes_.resize(coarse_->size());
+    loaded_.resize(coarse_->size());
+  }
+  if (edges_.size() < window_->edges().size()) edges_.resize(window_->edges().size());
 }
 
 template <class Real>
@@ -253,6 +257,7 @@ template <class Real>
 void PatchSet<Real>::load(Index i) {
   if (loaded_[i]) return;
   loaded_[i] = true;
+  loaded_list_.push_back(i);
   const PatchOf<double>& model = (*coarse_)[i];
   Patch& p = patches_[i];
   p.kind = model.kind;
@@ -288,6 +293,7 @@ void PatchSet<Real>::place(Index i) {
   EdgeFrame& e = edges_[i];
   if (e.placed) return;
   e.placed = true;
+  if (coarse_ != nullptr) placed_list_.push_back(i);
   const auto& edge = window_->edges()[i];
   const Point3 a = window_->vertices()[edge.a].at, b = window_->vertices()[edge.b].at;
   e.a = place_of<Real>(a);

@@ -200,7 +200,9 @@ class PatchSet {
   std::vector<Point> corners_;
   std::vector<EdgeFrame> edges_;
   std::vector<Index> face_patch_;
+  // Of a refined set:
   std::vector<bool> loaded_;
+  std::vector<Index> loaded_list_, placed_list_;  // patches and edges that are there
 };
 
 template <class Real>

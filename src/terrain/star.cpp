@@ -5,17 +5,6 @@
 // Where three or more patches meet: Newton's method on two of the functions that vanish along the curves out of the
 // vertex.
 namespace krepl::terrain {
-namespace {
-
-/// What vanishes along the curve of one turn: a side of a patch's domain, or a difference of heights.
-template <class Real>
-struct ConditionOf {
-  const BoundOf<Real>* bound;  // null: heights of a and b
-  Index a, b;
-  bool at_rim;  // b's height where it ends in a wall
-};
-
-}  // namespace
 
 /// The side of a domain that a seam or rim runs along; at a rim that at which the upper patch ends.
 template <class Real>
@@ -221,11 +210,90 @@ std::optional<PointOf<Real>> Cells<Real>::star_point(const Box& box) const {
   return p && hides_label(*p) ? std::nullopt : p;
 }
 
+/// Vanishes along the curve that the condition is of.
+template <class Real>
+Real Cells<Real>::value(const Condition& c, Point p) const {
+  if (c.bound != nullptr) return c.bound->value(p, envelope_.patches().square_radius());
+  return envelope_.clamped_height(c.a, p) -
+         (c.at_rim ? envelope_.rim_height(c.b, p) : envelope_.clamped_height(c.b, p));
+}
+
+template <class Real>
+GradientOf<Real> Cells<Real>::gradient(const Condition& c, Point p) const {
+  if (c.bound != nullptr) return envelope_.bound_gradient(*c.bound, p);
+  const PatchSet<Real>& patches = envelope_.patches();
+  const Gradient g = patches.gradient(c.a, p), h = c.at_rim ? envelope_.rim_gradient(c.b) : patches.gradient(c.b, p);
+  return {g.x - h.x, g.y - h.y};
+}
+
+template <class Real>
+GradientRangeOf<Real> Cells<Real>::gradient_range(const Condition& c, const Box& box) const {
+  if (c.bound != nullptr) return envelope_.bound_gradient_range(*c.bound, box);
+  const Gradient wall = c.at_rim ? envelope_.rim_gradient(c.b) : Gradient{0, 0};
+  constexpr auto where = Envelope<Real>::Where::in_domain;
+  const GradientRange a = envelope_.gradient_range(c.a, box, where);
+  const GradientRange b =
+      c.at_rim ? GradientRange{{wall.x, wall.x}, {wall.y, wall.y}} : envelope_.gradient_range(c.b, box, where);
+  return {a.x - b.x, a.y - b.y};
+}
+
+/// The two conditions whose curves cross at the largest angle; sides of domains before heights.
+template <class Real>
+std::pair<std::size_t, std::size_t> Cells<Real>::crossing_most(std::span<const Condition> conditions, Point p) const {
+  std::pair<std::size_t, std::size_t> found{0, 1};
+  Real best = -1;
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    const Gradient g = gradient(conditions[i], p);
+    for (std::size_t j = i + 1; j < conditions.size(); ++j) {
+      const Gradient h = gradient(conditions[j], p);
+      const Real sizes = size(g) * size(h);
+      Real sine = sizes > 0 ? absolute(g.x * h.y - g.y * h.x) / sizes : 0;
+      const int sides = (conditions[i].bound != nullptr) + (conditions[j].bound != nullptr);
+      if (sine > 1e-6) sine += sides;
+      if (sine > best) best = sine, found = {i, j};
+    }
+  }
+  return found;
+}
+
+/// True if three conditions, of which `first` and `second` cross most, hold at one place of the box at most: two sides of
+/// domains are enough for that, for heights the map must be one to one.
+template <class Real>
+bool Cells<Real>::is_met_once(std::span<const Condition> conditions, std::size_t first, std::size_t second,
+                              const Box& box) const {
+  const Condition &c = conditions[first], &d = conditions[second];
+  if (c.bound != nullptr && d.bound != nullptr) return true;
+  const PatchSet<Real>& patches = envelope_.patches();
+  const Point middle = box.middle();
+  const auto is_straight = [&](const Condition& k) {
+    if (k.bound != nullptr) return k.bound->type == BoundType::line;
+    using Kind = Terrain::FeatureKind;
+    return !k.at_rim && patches[k.a].kind == Kind::face && patches[k.b].kind == Kind::face;
+  };
+  // Along a straight curve, which meets another one once if that one's function rises or falls all along.
+  const auto is_crossed_once = [&](const Condition& straight, const Condition& k) {
+    const Gradient g = gradient(straight, middle), along{-g.y, g.x};
+    if (k.bound != nullptr || k.at_rim) {
+      const GradientRange r = gradient_range(k, box);
+      return (r.x * Range{along.x, along.x} + r.y * Range{along.y, along.y}).excludes_zero();
+    }
+    return slope_of_difference(k.a, k.b, box, along).excludes_zero();
+  };
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Condition &e = conditions[i], &f = conditions[j];
+      if (is_straight(e) && is_crossed_once(e, f)) return true;
+      if (is_straight(f) && is_crossed_once(f, e)) return true;
+    }
+  }
+  const GradientRange a = gradient_range(c, box), b = gradient_range(d, box);
+  return (a.x * b.y - a.y * b.x).excludes_zero();
+}
+
 template <class Real>
 std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
   const PatchSet<Real>& patches = envelope_.patches();
   const Real square = patches.square_radius(), radius = patches.radius();
-  using Condition = ConditionOf<Real>;
   std::array<Condition, 16> condition{};
   const std::size_t n = turns_.size();
   if (n > condition.size()) return std::nullopt;
@@ -248,17 +316,6 @@ std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
       }
     }
   }
-  const auto gradient = [&](const Condition& c, Point p) {
-    if (c.bound != nullptr) return envelope_.bound_gradient(*c.bound, p);
-    const Gradient g = patches.gradient(c.a, p), h = c.at_rim ? envelope_.rim_gradient(c.b) : patches.gradient(c.b, p);
-    return Gradient{g.x - h.x, g.y - h.y};
-  };
-  const auto value = [&](const Condition& c, Point p) {
-    if (c.bound != nullptr) return c.bound->value(p, square);
-    return envelope_.clamped_height(c.a, p) -
-           (c.at_rim ? envelope_.rim_height(c.b, p) : envelope_.clamped_height(c.b, p));
-  };
-
   // By how much heights may differ at a place that is on their curve as far as lengths in the plane are told apart.
   const Real most = 2 * square_root(2 * radius * envelope_.tolerance());  // beside a wall, a bit inside of it
   const auto height_slack = [&](Gradient g) {
@@ -339,20 +396,7 @@ std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
     }
     return corner;
   }
-  // The two conditions whose curves cross at the largest angle; sides of domains before heights.
-  std::size_t first = 0, second = 1;
-  Real best = -1;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Gradient g = gradient(condition[i], middle);
-    for (std::size_t j = i + 1; j < n; ++j) {
-      const Gradient h = gradient(condition[j], middle);
-      const Real sizes = size(g) * size(h);
-      Real sine = sizes > 0 ? absolute(g.x * h.y - g.y * h.x) / sizes : 0;
-      const int sides = (condition[i].bound != nullptr) + (condition[j].bound != nullptr);
-      if (sine > 1e-6) sine += sides;
-      if (sine > best) best = sine, first = i, second = j;
-    }
-  }
+  const auto [first, second] = crossing_most({condition.data(), n}, middle);
   const Condition &c = condition[first], &d = condition[second];
   const std::optional<Point> p = solve(c, d, middle);
   if (!p && is_fine<Real>) return end_of_thin_strip();
@@ -372,42 +416,8 @@ std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
     if (k.bound == nullptr) slack = height_slack(gradient(k, *p));
     if (!(absolute(value(k, *p)) <= slack)) return std::nullopt;
   }
-  // One vertex only: two sides of domains are enough, for heights the map must be one to one.
-  if (c.bound != nullptr && d.bound != nullptr) return p;
-  const auto range = [&](const Condition& k) {
-    if (k.bound != nullptr) return envelope_.bound_gradient_range(*k.bound, box);
-    const Gradient wall = k.at_rim ? envelope_.rim_gradient(k.b) : Gradient{0, 0};
-    constexpr auto where = Envelope<Real>::Where::in_domain;
-    const GradientRange a = envelope_.gradient_range(k.a, box, where);
-    const GradientRange b =
-        k.at_rim ? GradientRange{{wall.x, wall.x}, {wall.y, wall.y}} : envelope_.gradient_range(k.b, box, where);
-    return GradientRange{a.x - b.x, a.y - b.y};
-  };
-  const auto is_straight = [&](const Condition& k) {
-    if (k.bound != nullptr) return k.bound->type == BoundType::line;
-    using Kind = Terrain::FeatureKind;
-    return !k.at_rim && patches[k.a].kind == Kind::face && patches[k.b].kind == Kind::face;
-  };
-  // Along a straight curve, which meets another one once if that one's function rises or falls all along.
-  const auto is_crossed_once = [&](const Condition& straight, const Condition& k) {
-    const Gradient g = gradient(straight, middle), along{-g.y, g.x};
-    if (k.bound != nullptr || k.at_rim) {
-      const GradientRange r = range(k);
-      return (r.x * Range{along.x, along.x} + r.y * Range{along.y, along.y}).excludes_zero();
-    }
-    return slope_of_difference(k.a, k.b, box, along).excludes_zero();
-  };
-  if (n > 3) return p;
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const Condition &e = condition[i], &f = condition[j];
-      if (is_straight(e) && is_crossed_once(e, f)) return p;
-      if (is_straight(f) && is_crossed_once(f, e)) return p;
-    }
-  }
-  const GradientRange a = range(c), b = range(d);
-  if (!(a.x * b.y - a.y * b.x).excludes_zero()) return std::nullopt;
-  return p;
+  if (n > 3 || is_met_once({condition.data(), n}, first, second, box)) return p;
+  return std::nullopt;
 }
 
 template class Cells<double>;
