@@ -193,21 +193,23 @@ bool Envelope<Real>::lies_in(Index lower, Index upper) const {
 }
 
 template <class Real>
-bool Envelope<Real>::is_image(Index image, Index original, const Bound& plane) const {
+bool Envelope<Real>::is_image(Index image, Index original, const Bound& plane, const Box& box) const {
   const Patch &c = patches_[image], &k = patches_[original];
-  if (plane.type != BoundType::line || c.kind != k.kind || c.kind == FeatureKind::face) return false;
+  if (plane.type != BoundType::line || c.kind == FeatureKind::face || c.kind > k.kind || k.kind == FeatureKind::face) return false;
   const Real tolerance = tolerance_ / 4;
-  // True if p lies on the negative side, and q is its image.
-  const auto maps = [&](Point p, Real p_z, Point q, Real q_z) {
-    const Real value = plane.value(p, 0), twice = 2 * value;
-    const Point r{p.x - twice * plane.nx, p.y - twice * plane.ny};
-    return plane.sign() * value <= tolerance && norm(r.x - q.x, r.y - q.y) <= tolerance && absolute(p_z - q_z) <= noise_;
+  // True if q is the image of a place of the original on the negative side.
+  const auto has_original = [&](const Vector& q) {
+    const Real value = plane.value({q.x, q.y}, 0), twice = 2 * value, z = q.z;
+    const Point p{q.x - twice * plane.nx, q.y - twice * plane.ny};
+    if (plane.sign() * value < -tolerance) return false;
+    if (k.kind == FeatureKind::vertex) return norm(p.x - k.at.x, p.y - k.at.y) <= tolerance && absolute(k.z - z) <= noise_;
+    const Real along = (p.x - k.at.x) * k.gx + (p.y - k.at.y) * k.gy;
+    return absolute(k.aside(p)) <= tolerance && along >= -tolerance && along <= k.length + tolerance &&
+           absolute(k.z + k.m * along - z) <= noise_ * k.q;
   };
-  if (c.kind == FeatureKind::vertex) return maps(k.at, k.z, c.at, c.z);
-  const Point a = k.at, b = k.end();
-  const Real a_z = k.z, b_z = k.end_z();
-  return (maps(a, a_z, c.at, c.z) && maps(b, b_z, c.end(), c.end_z())) ||
-         (maps(a, a_z, c.end(), c.end_z()) && maps(b, b_z, c.at, c.z));
+  Vector place[2];
+  const std::size_t count = contacts(image, box, place);
+  return std::all_of(place, place + count, has_original);
 }
 
 /// True if one of the upper features hides the patch by the way the two lie to each other.

@@ -100,6 +100,7 @@ class Cells {
   Gradient gradient(const Condition& condition, Point p) const;
   GradientRange gradient_range(const Condition& condition, const Box& box) const;
   std::pair<std::size_t, std::size_t> crossing_most(std::span<const Condition> conditions, Point p) const;
+  bool cross_once(const Condition& c, const Condition& d, const Box& box) const;
   bool is_met_once(std::span<const Condition> conditions, std::size_t first, std::size_t second, const Box& box) const;
   bool hides_label(Point p) const;
   bool is_steep() const;

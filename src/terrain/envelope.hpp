@@ -120,10 +120,10 @@ class Envelope {
   std::optional<Bound> wall_above(Index upper, Index lower, const Box& box) const;
   /// The same, or the one wall that rises above the lower patch not far inside of it.
   std::optional<WallBesideOf<Real>> wall_beside(Index upper, Index lower, const Box& box) const;
-  /// True if an edge or a vertex is the mirror image of another one in the vertical plane of a straight bound, on whose
-  /// negative side the original lies: a ball on that side is nearer to any place of the original than to its image, so that the
-  /// image is hidden there.
-  bool is_image(Index image, Index original, const Bound& plane) const;
+  /// True if what a ball over the box may touch of an edge or a vertex is the mirror image, in the vertical plane of a straight
+  /// bound, of a part of another one on the plane's negative side: a ball on that side is nearer to any place of the original
+  /// than to its image, so that the image is hidden there.
+  bool is_image(Index image, Index original, const Bound& plane, const Box& box) const;
   /// Of extended_height, but continued where the patch's surface has ended.
   Real clamped_height(Index patch, Point p) const;
   /// The side of the patch's domain beside p that ends in a wall; null if there is none so near.

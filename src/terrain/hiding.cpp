@@ -178,21 +178,31 @@ class Envelope<Real>::Cover {
   }
 
   /// The same of a cylinder or sphere, which beside a wall no tangent plane bounds well: all of its patch lies on one side of
-  /// the plane through each vertex orthogonal to the edge.
-  bool hides_within_ends(Index c) {
+  /// the plane through each vertex orthogonal to the edge. So does what of a sphere is outside of a higher ball: below the plane
+  /// of their common circle, which may be that in which a third patch meets both.
+  bool hides_within_planes(Index c) {
     const Patch& f = envelope_.patches_[c];
     if (f.kind == FeatureKind::face) return false;
     for (const Bound& b : envelope_.patches_.bounds(c)) {
       if (b.type != BoundType::cone || !(b.sign() * b.c > 0)) continue;
-      const Gradient slope{-b.nx / b.c, -b.ny / b.c};
       const Real z = f.kind == FeatureKind::edge ? envelope_.axis_height(c, b.at) : f.z;
-      const Real height = z + slope.x * (frame_.mid.x - b.at.x) + slope.y * (frame_.mid.y - b.at.y);
-      if (hides(c, Plane{height, slope})) return true;
+      if (hides_below(c, b.at, z, {-b.nx / b.c, -b.ny / b.c})) return true;
+    }
+    if (f.kind != FeatureKind::vertex) return false;
+    for (std::size_t k = 0; k < bodies_; ++k) {
+      const Patch& ball = envelope_.patches_[body_[k].label];
+      const Real x = ball.at.x - f.at.x, y = ball.at.y - f.at.y, up = ball.z - f.z;
+      if (ball.kind != FeatureKind::vertex || !(up > 0)) continue;
+      if (hides_below(c, {f.at.x + x / 2, f.at.y + y / 2}, f.z + up / 2, {-x / up, -y / up})) return true;
     }
     return false;
   }
 
  private:
+  bool hides_below(Index c, Point at, Real z, Gradient slope) {
+    return hides(c, Plane{z + slope.x * (frame_.mid.x - at.x) + slope.y * (frame_.mid.y - at.y), slope});
+  }
+
   /// The same, if it lies below the given plane.
   bool hides(Index c, const Plane& plane) {
     hidden_ = c;
@@ -378,7 +388,7 @@ bool Envelope<Real>::stays_hidden(Index c, const Box& box, std::span<const Index
   const BoxFrame frame(part);
   if (!domain_meets(c, frame)) return true;
   Cover cover(*this, frame, labels);
-  if (cover.hides(c) || (is_fine<Real> && cover.hides_within_ends(c))) return true;
+  if (cover.hides(c) || cover.hides_within_planes(c)) return true;
   if ((far_ || is_fine<Real>) && hidden_by_balls(c, labels, part)) return true;
   if (is_fine<Real> && hidden_by_feature(c, labels, frame)) return true;
   if (depth == 0) return false;

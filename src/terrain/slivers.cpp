@@ -236,7 +236,7 @@ bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
     Bound outside = wall->outline;
     outside.negative = !outside.negative;
     if (wall->inset == 0 && std::any_of(turns_.begin(), turns_.end(), [&](const Turn& other) {
-          return other.after != none && other.after != t.after && envelope_.is_image(patch, other.after, outside);
+          return other.after != none && other.after != t.after && envelope_.is_image(patch, other.after, outside, box);
         }))
       return true;
     const bool round = outside.type == BoundType::disc;

@@ -286,6 +286,12 @@ bool Cells<Real>::is_met_once(std::span<const Condition> conditions, std::size_t
       if (is_straight(f) && is_crossed_once(f, e)) return true;
     }
   }
+  return cross_once(c, d, box);
+}
+
+/// True if two conditions hold at one place of the box at most, because their gradients are nowhere in one line.
+template <class Real>
+bool Cells<Real>::cross_once(const Condition& c, const Condition& d, const Box& box) const {
   const GradientRange a = gradient_range(c, box), b = gradient_range(d, box);
   return (a.x * b.y - a.y * b.x).excludes_zero();
 }
@@ -338,6 +344,11 @@ std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
     if (share_corner(turns_[k].before, turns_[k].after, corner)) return true;
     return absolute(value(c, corner)) <= 4 * height_slack(gradient(c, corner));
   };
+  const auto has_walls = [&](Point p) {
+    return std::any_of(turns_.begin(), turns_.end(), [&](const Turn& t) {
+      return t.after != none && t.meeting != Meeting::rim && envelope_.rim_at(t.after, p) != nullptr;
+    });
+  };
   std::optional<Point> corner = common_corner(box);
   if (corner && n == 3 && is_covered(*corner)) corner.reset();
   if (!corner) {
@@ -353,10 +364,7 @@ std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
     }
     if (hides_foot_of_seam(*corner)) return std::nullopt;
     // Patches that end in walls at one place can meet once more nearby.
-    const bool walls = std::any_of(turns_.begin(), turns_.end(), [&](const Turn& t) {
-      return t.after != none && t.meeting != Meeting::rim && envelope_.rim_at(t.after, *corner) != nullptr;
-    });
-    if (!walls) return corner;
+    if (n == 3 && !has_walls(*corner)) return corner;
   }
 
   // The place near `start` where two of the conditions hold.
@@ -377,25 +385,27 @@ std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
     }
     return converged && box.contains(p) ? std::optional(p) : std::nullopt;
   };
-  if (corner) {
-    const std::optional<Point> touch = touch_of_balls_beside(*corner);
-    const Real near = touch ? reach_of_touch() : 16 * tolerance;
-    // Two curves in a row that bound one patch, and meet elsewhere in the box: where they are tangent at the corner not so near
-    // to it that they are not told apart.
+  // Two curves in a row that bound one patch, and meet elsewhere in the box: where they are tangent at the vertex not so near
+  // to it that they are not told apart.
+  const auto meet_elsewhere = [&](Point vertex) {
+    const bool walls = has_walls(vertex);
+    const Real near = touch_of_balls_beside(vertex) ? reach_of_touch() : 16 * tolerance;
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t j = (i + 1) % n;
-      const Gradient g = gradient(anywhere[i], *corner), h = gradient(anywhere[j], *corner);
-      const bool tangent = absolute(g.x * h.y - g.y * h.x) <= 0x1p-10 * size(g) * size(h);
+      if (cross_once(anywhere[i], anywhere[j], box)) continue;
+      const Gradient g = gradient(anywhere[i], vertex), h = gradient(anywhere[j], vertex);
+      const Real least = walls ? 0 : 1;  // two patches may be tangent there themselves
+      const bool tangent = absolute(g.x * h.y - g.y * h.x) <= 0x1p-10 * std::max(least, size(g)) * std::max(least, size(h));
       const Real apart = tangent ? std::max(near, reach_of_touch()) : near;
       for (const Point start : {middle, turns_[i].at, turns_[j].at}) {
         const std::optional<Point> p = solve(anywhere[i], anywhere[j], start);
-        if (!p || norm(p->x - corner->x, p->y - corner->y) <= apart) continue;
-        if (shows_at(turns_[i].before, *p) && shows_at(turns_[i].after, *p) && shows_at(turns_[j].after, *p))
-          return std::nullopt;
+        if (!p || norm(p->x - vertex.x, p->y - vertex.y) <= apart) continue;
+        if (shows_at(turns_[i].before, *p) && shows_at(turns_[i].after, *p) && shows_at(turns_[j].after, *p)) return true;
       }
     }
-    return corner;
-  }
+    return false;
+  };
+  if (corner) return meet_elsewhere(*corner) ? std::nullopt : corner;
   const auto [first, second] = crossing_most({condition.data(), n}, middle);
   const Condition &c = condition[first], &d = condition[second];
   const std::optional<Point> p = solve(c, d, middle);
@@ -416,8 +426,8 @@ std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
     if (k.bound == nullptr) slack = height_slack(gradient(k, *p));
     if (!(absolute(value(k, *p)) <= slack)) return std::nullopt;
   }
-  if (n > 3 || is_met_once({condition.data(), n}, first, second, box)) return p;
-  return std::nullopt;
+  const bool once = n > 3 ? !meet_elsewhere(*p) : is_met_once({condition.data(), n}, first, second, box);
+  return once ? p : std::nullopt;
 }
 
 template class Cells<double>;
