@@ -86,10 +86,9 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
   }
   // A ball touches the lower edge between its ends: that tells how high it can be above the axis there.
   Real lowest = least_up, first = 0, last = 0;
-  const auto along = [&](Point p) { return (p.x - c.at.x) * c.gx + (p.y - c.at.y) * c.gy; };
   const Real lean = c.m * c.flat;
   if (c.m != 0) {
-    const Real a[4] = {along(corner[0]), along(corner[1]), along(corner[2]), along(corner[3])};
+    const Real a[4] = {c.along(corner[0]), c.along(corner[1]), c.along(corner[2]), c.along(corner[3])};
     first = std::min({a[0], a[1], a[2], a[3]}), last = std::max({a[0], a[1], a[2], a[3]});
     lowest = std::max(lowest, (c.m > 0 ? -last : first - c.length) / absolute(lean) - slack);
     for (Real& u : up) u = std::min(u, (c.m > 0 ? c.length - first : last) / absolute(lean) + slack);
@@ -125,7 +124,7 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
   const Real growth = k.m * (k.gx * c.gx + k.gy * c.gy) - c.m, beyond = absolute(lean) * slack;
   Real level_off = endless, aside_off = endless;  // least of the level but for that growth, and of the last term
   for (int i = 0; i < 4; ++i) {
-    level_off = std::min(level_off, level[i] - growth * along(corner[i]));
+    level_off = std::min(level_off, level[i] - growth * c.along(corner[i]));
     for (const Real s : slope) aside_off = std::min(aside_off, c.q * apart[i] * s);
   }
   for (const Real sign : {Real(1), Real(-1)}) {
@@ -169,13 +168,12 @@ bool Envelope<Real>::lies_in(Index lower, Index upper) const {
   const Point a = c.at, b = c.end();
   const Real top_a = c.z, top_b = c.end_z();
   if (k.kind == FeatureKind::edge) {
-    const auto along = [&](Point p) { return (p.x - k.at.x) * k.gx + (p.y - k.at.y) * k.gy; };
     const auto holds = [&](Point p, Real z) {
-      const Real t = along(p);
+      const Real t = k.along(p);
       return absolute(k.aside(p)) <= tolerance && t >= -tolerance &&
              t <= k.length + tolerance && z <= k.z + k.m * t + noise_;
     };
-    if (c.kind == FeatureKind::vertex) return holds(a, top_a) && along(a) > tolerance_ && along(a) < k.length - tolerance_;
+    if (c.kind == FeatureKind::vertex) return holds(a, top_a) && k.along(a) > tolerance_ && k.along(a) < k.length - tolerance_;
     return c.length < k.length - tolerance_ && holds(a, top_a) && holds(b, top_b);
   }
   // A face's patch is the face itself, moved by R along its normal.
@@ -195,7 +193,7 @@ bool Envelope<Real>::lies_in(Index lower, Index upper) const {
 template <class Real>
 bool Envelope<Real>::is_image(Index image, Index original, const Bound& plane, const Box& box) const {
   const Patch &c = patches_[image], &k = patches_[original];
-  if (plane.type != BoundType::line || c.kind == FeatureKind::face || c.kind > k.kind || k.kind == FeatureKind::face) return false;
+  if (plane.type != BoundType::line || k.kind == FeatureKind::face || c.kind > k.kind) return false;
   const Real tolerance = tolerance_ / 4;
   // True if q is the image of a place of the original on the negative side.
   const auto has_original = [&](const Vector& q) {
@@ -203,9 +201,9 @@ bool Envelope<Real>::is_image(Index image, Index original, const Bound& plane, c
     const Point p{q.x - twice * plane.nx, q.y - twice * plane.ny};
     if (plane.sign() * value < -tolerance) return false;
     if (k.kind == FeatureKind::vertex) return norm(p.x - k.at.x, p.y - k.at.y) <= tolerance && absolute(k.z - z) <= noise_;
-    const Real along = (p.x - k.at.x) * k.gx + (p.y - k.at.y) * k.gy;
+    const Real along = k.along(p);
     return absolute(k.aside(p)) <= tolerance && along >= -tolerance && along <= k.length + tolerance &&
-           absolute(k.z + k.m * along - z) <= noise_ * k.q;
+           absolute(axis_height(original, p) - z) <= noise_ * k.q;
   };
   Vector place[2];
   const std::size_t count = contacts(image, box, place);

@@ -77,7 +77,7 @@ GradientOf<Real> Envelope<Real>::rim_gradient(Index i) const {
 template <class Real>
 Real Envelope<Real>::axis_height(Index i, Point p) const {
   const Patch& f = patches_[i];
-  return f.z + f.m * ((p.x - f.at.x) * f.gx + (p.y - f.at.y) * f.gy);
+  return f.z + f.m * f.along(p);
 }
 
 template <class Real>
@@ -86,14 +86,14 @@ Real Envelope<Real>::rim_height(Index i, Point p) const {
   if (f.kind == FeatureKind::face)
     return patches_.extended_height(i, p);  // nearly vertical, the cylinder beside it too thin to show
   if (f.kind == FeatureKind::vertex) return f.z;
-  return f.z + f.m * std::clamp((p.x - f.at.x) * f.gx + (p.y - f.at.y) * f.gy, Real(0), f.length);
+  return f.z + f.m * std::clamp(f.along(p), Real(0), f.length);
 }
 
 template <class Real>
 Real Envelope<Real>::wall_height(Index i, Point p) const {
   const Patch& f = patches_[i];
   if (f.kind != FeatureKind::edge) return rim_height(i, p);
-  const Real along = (p.x - f.at.x) * f.gx + (p.y - f.at.y) * f.gy;
+  const Real along = f.along(p);
   if (along >= 0 && along <= f.length) return rim_height(i, p);
   const BoundSource source = along < 0 ? BoundSource::start : BoundSource::end;
   const auto bounds = patches_.bounds(i);

@@ -87,7 +87,8 @@ struct PatchOf {
   /// Of an edge: its second vertex.
   Point end() const { return {at.x + length * gx, at.y + length * gy}; }
   Real end_z() const { return z + m * length; }
-  /// Of an edge: how far to the left of its line, in the plane.
+  /// Of an edge: how far along its line from its first vertex, and how far to the left of it, in the plane.
+  Real along(Point p) const { return (p.x - at.x) * gx + (p.y - at.y) * gy; }
   Real aside(Point p) const { return (p.y - at.y) * gx - (p.x - at.x) * gy; }
   /// Of an edge: true if a segment of the plane comes nowhere nearer to its line than that.
   bool is_clear_of(Point a, Point b, Real distance) const {

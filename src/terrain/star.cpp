@@ -322,6 +322,7 @@ std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
       }
     }
   }
+
   // By how much heights may differ at a place that is on their curve as far as lengths in the plane are told apart.
   const Real most = 2 * square_root(2 * radius * envelope_.tolerance());  // beside a wall, a bit inside of it
   const auto height_slack = [&](Gradient g) {
@@ -363,7 +364,7 @@ std::optional<PointOf<Real>> Cells<Real>::common_point(const Box& box) const {
       if (!passes(k, *corner)) return std::nullopt;
     }
     if (hides_foot_of_seam(*corner)) return std::nullopt;
-    // Patches that end in walls at one place can meet once more nearby.
+    // Patches that end in walls at one place can meet once more nearby, and so can three of four.
     if (n == 3 && !has_walls(*corner)) return corner;
   }
 
