@@ -8,16 +8,6 @@ namespace krepl::terrain {
 
 using FeatureKind = Terrain::FeatureKind;
 
-/// Of patches that are equally high, the one that counts as seen.
-template <class Real>
-bool Envelope<Real>::precedes(Index a, Index b) const {
-  const Patch &f = patches_[a], &g = patches_[b];
-  if (f.kind != g.kind) return f.kind > g.kind;  // face, edge, vertex
-  // Of two edges in one line the one of which the other may be a part.
-  if (f.kind == FeatureKind::edge && f.length != g.length) return f.length > g.length;
-  return f.feature < g.feature;
-}
-
 template <class Real>
 bool Envelope<Real>::are_coplanar(Index a, Index b, const Box& box) const {
   const Patch &f = patches_[a], &g = patches_[b];
@@ -28,11 +18,13 @@ bool Envelope<Real>::are_coplanar(Index a, Index b, const Box& box) const {
   return apart + dx * box.half_x() + dy * box.half_y() <= noise_;
 }
 
-/// True if a face that may be equally high as another one counts as seen then, and reaches into the box by more than is told
-/// apart.
+/// True if a face or edge that may be equally high as another one counts as seen then, and reaches into the box by more than is
+/// told apart.
 template <class Real>
 bool Envelope<Real>::shows_first(Index i, Index other, const BoxFrame& box) const {
-  if (patches_[i].kind != FeatureKind::face || patches_[other].kind != FeatureKind::face || !precedes(i, other)) return false;
+  const bool are_faces = patches_[i].kind == FeatureKind::face && patches_[other].kind == FeatureKind::face;
+  const bool overlap = patches_[i].overlaps && patches_[other].overlaps && patches_.seam(i, other) != nullptr;
+  if (!(are_faces || overlap) || !patches_.precedes(i, other)) return false;
   const std::span<const Bound> sides = patches_.bounds(i);
   return std::all_of(sides.begin(), sides.end(), [&](const Bound& b) {
     return (b.negative ? extreme<1>(b, box) : extreme<-1>(b, box)) < -tolerance_;
@@ -97,14 +89,17 @@ bool Envelope<Real>::hidden_beside(Index lower, Index upper, const BoxFrame& fra
   for (const Bound& b : patches_.bounds(upper)) {
     if (b.type != BoundType::cone) continue;
     // The same of the sphere about that end, which is lower than the cylinder.
-    Real farthest_along = 0;
-    for (const Point p : corner)
-      farthest_along = std::max(farthest_along, absolute((p.x - b.at.x) * k.gx + (p.y - b.at.y) * k.gy));
-    const Real on_sphere = square_root(std::max(Real(0), up[0] * up[0] - farthest_along * farthest_along));
-    if (!is_within(b, frame, std::max(least_up, on_sphere), up[1])) return false;
+    Range along{endless, -endless};
+    for (const Point p : corner) {
+      const Real t = (p.x - b.at.x) * k.gx + (p.y - b.at.y) * k.gy;
+      along = {std::min(along.low, t), std::max(along.high, t)};
+    }
+    const Real farthest_along = std::max(-along.low, along.high), nearest_along = std::max({Real(0), along.low, -along.high});
+    const auto on_sphere = [](Real u, Real t) { return square_root(std::max(Real(0), u * u - t * t)); };
+    if (!is_within(b, frame, std::max(least_up, on_sphere(up[0], farthest_along)), on_sphere(up[1], nearest_along))) return false;
   }
   const auto is_enough = [&](Real over) {
-    return over > noise_ || (allowed > 0 && over >= -allowed) || (over >= -noise_ && precedes(upper, lower));
+    return over > noise_ || (allowed > 0 && over >= -allowed) || (over >= -noise_ && patches_.precedes(upper, lower));
   };
   const Real rise = k.q - c.q;
   Real level[4];

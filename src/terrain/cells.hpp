@@ -142,6 +142,7 @@ class Cells {
   std::optional<Point> end_of_thin_strip() const;
   bool is_thin_bend(Index a, Index b, const Box& box) const;
   bool is_tangent_sliver(Index patch, const Box& box) const;
+  bool is_met_along(Index patch, const Bound& wall, Index behind, const Box& box) const;
   bool is_hidden_beside_wall(Index patch, const Box& box) const;
   bool all_are_prisms(std::span<const Index> candidates, const Box& box) const;
   bool is_hidden(Index patch, const Box& box) const;

@@ -59,7 +59,7 @@ Index Envelope<Real>::winner(Point p, std::span<const Index> candidates, bool fi
     if (patches_.contains(c, p) && patches_.extended_height(c, p) >= lowest) equal.push_back(c);
   }
   if (finely) return finer(equal)->winner({p.x, p.y}, equal);
-  return *std::min_element(equal.begin(), equal.end(), [&](Index c, Index d) { return precedes(c, d); });
+  return *std::min_element(equal.begin(), equal.end(), [&](Index c, Index d) { return patches_.precedes(c, d); });
 }
 
 template <class Real>
@@ -171,7 +171,12 @@ std::optional<bool> Envelope<Real>::meet_before_wall(Index a, const Bound* of_a,
     const Point foot{p.x - step * g.x, p.y - step * g.y};
     if (is_beyond_wall(outer, foot)) continue;
     const Gradient h = patches_.gradient(outer, foot);
-    return clamped_height(outer, foot) >= rim_height(inner, foot) - noise_ * (1 + norm(h.x, h.y));
+    const Real over = clamped_height(outer, foot) - rim_height(inner, foot);
+    // By no more than the inner one rises so near its wall: where walls cross, the outer one may be far above.
+    const Patch& f = patches_[inner];
+    const bool is_round = f.kind != FeatureKind::face;
+    const Real most = (f.kind == FeatureKind::edge ? f.q : Real(1)) * square_root(4 * patches_.radius() * rim_width_);
+    return over >= -noise_ * (1 + norm(h.x, h.y)) && (!is_round || over <= most);
   }
   return std::nullopt;
 }
@@ -276,6 +281,39 @@ RangeOf<Real> Envelope<Real>::derivative_range(Index i, const Box& box, Gradient
   }
   const Real along = f.m * (f.gx * d.x + f.gy * d.y), aslant = d.y * f.gx - d.x * f.gy;
   return slope_across(i, box, where) * Range{aslant, aslant} + Range{along, along};
+}
+
+/// Of u = sqrt(R^2 - x^2 - y^2), at most the distance `far` from its middle. Along a line at distance d from there it is
+/// sqrt(s^2 - t^2) with s^2 = R^2 - d^2, and has the third derivative -3 t s^2 / u^5.
+template <class Real>
+typename Envelope<Real>::Curvature Envelope<Real>::round_curvature(Real x, Real y, Real far) const {
+  const Real square = patches_.square_radius(), up = square - x * x - y * y, least = square - far * far;
+  if (!(up > 0 && least > 0)) return {0, 0, 0, endless};
+  const Real cube = up * square_root(up);
+  return {-(square - y * y) / cube, -x * y / cube, -(square - x * x) / cube, 3 * far * square / (least * least * square_root(least))};
+}
+
+template <class Real>
+typename Envelope<Real>::Curvature Envelope<Real>::curvature(Index i, const Box& box) const {
+  const Patch& f = patches_[i];
+  const Point mid = box.middle();
+  if (f.kind == FeatureKind::face) return {0, 0, 0, 0};
+  if (f.kind == FeatureKind::vertex) {
+    const Real x = mid.x - f.at.x, y = mid.y - f.at.y;
+    return round_curvature(x, y, norm(absolute(x) + box.half_x(), absolute(y) + box.half_y()));
+  }
+  const Real aside = f.aside(mid), spread = absolute(f.gx) * box.half_y() + absolute(f.gy) * box.half_x();
+  const Curvature across = round_curvature(0, aside, absolute(aside) + spread) * f.q;
+  return {across.yy * (f.gy * f.gy), across.yy * (-f.gx * f.gy), across.yy * (f.gx * f.gx), across.third};
+}
+
+template <class Real>
+typename Envelope<Real>::Curvature Envelope<Real>::curvature(const Bound& b, const Box& box) const {
+  if (b.type == BoundType::line) return {0, 0, 0, 0};
+  if (b.type == BoundType::disc) return {2, 0, 2, 0};
+  const Point mid = box.middle();
+  const Real x = mid.x - b.at.x, y = mid.y - b.at.y;
+  return round_curvature(x, y, norm(absolute(x) + box.half_x(), absolute(y) + box.half_y())) * b.c;
 }
 
 template <class Real>

@@ -94,6 +94,15 @@ class Envelope {
   /// Over all of a box, or only over the part of it that is in the patch's domain, or in a convex set around that.
   enum class Where : std::uint8_t { in_box, in_domain };
   GradientRange gradient_range(Index patch, const Box& box, Where where = Where::in_box) const;
+  /// Second derivatives in the middle of a box, and how large third ones may be along any direction in it.
+  struct Curvature {
+    Real xx, xy, yy, third;
+    Curvature operator+(const Curvature& c) const { return {xx + c.xx, xy + c.xy, yy + c.yy, third + c.third}; }
+    Curvature operator*(Real k) const { return {k * xx, k * xy, k * yy, absolute(k) * third}; }
+  };
+  /// Of extended_height, and of a bound's function; infinite beside a wall.
+  Curvature curvature(Index patch, const Box& box) const;
+  Curvature curvature(const Bound& bound, const Box& box) const;
   /// Of the derivative of extended_height along a direction of the plane.
   Range derivative_range(Index patch, const Box& box, Gradient direction, Where where = Where::in_box) const;
   /// The same of a function that vanishes where a cylinder or sphere is as high as the other patch, and is smooth where
@@ -185,7 +194,6 @@ class Envelope {
   std::optional<Wall> wall_through(Index patch, const BoxFrame& box) const;
   bool is_above(Index upper, const Wall& wall, Index lower, const BoxFrame& frame) const;
   bool ends_before(Index patch, const Bound& wall, const Box& box) const;
-  bool precedes(Index a, Index b) const;
   bool shows_first(Index patch, Index other, const BoxFrame& box) const;
   bool lies_in(Index lower, Index upper) const;
   bool hidden_beside(Index lower, Index upper, const BoxFrame& frame, Real least_up = 0, Real allowed = 0,
@@ -194,6 +202,13 @@ class Envelope {
   struct Vector {
     Real x, y, z;
   };
+  /// Places x with (x - (at, z)) . normal > 0.
+  struct HalfSpace {
+    Point at;
+    Real z;
+    Vector normal;
+  };
+  std::size_t outside_of_crossing(Index first, Index second, const BoxFrame& frame, HalfSpace out[2]) const;
   std::size_t contacts(Index patch, const Box& box, Vector* out) const;
   std::size_t normals(Index patch, const Box& box, Vector* out) const;
   bool hidden_by_feature(Index lower, std::span<const Index> uppers, const BoxFrame& frame) const;
@@ -214,6 +229,7 @@ class Envelope {
   bool lies_beyond_seam(Index sphere, Index edge, const BoxFrame& box, Real least_up) const;
   bool axis_meets(Index edge, const BoxFrame& box) const;
   GradientRange sphere_gradient(Point at, const Box& box, Real factor) const;
+  Curvature round_curvature(Real x, Real y, Real far) const;
 
   PatchSet<Real>& patches_;
   Real tolerance_, smallest_cell_, fine_cell_, smallest_stretch_, noise_, rim_width_, least_up_, thickness_;

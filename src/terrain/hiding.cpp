@@ -188,17 +188,50 @@ class Envelope<Real>::Cover {
       const Real z = f.kind == FeatureKind::edge ? envelope_.axis_height(c, b.at) : f.z;
       if (hides_below(c, b.at, z, {-b.nx / b.c, -b.ny / b.c})) return true;
     }
-    if (f.kind != FeatureKind::vertex) return false;
     for (std::size_t k = 0; k < bodies_; ++k) {
-      const Patch& ball = envelope_.patches_[body_[k].label];
-      const Real x = ball.at.x - f.at.x, y = ball.at.y - f.at.y, up = ball.z - f.z;
-      if (ball.kind != FeatureKind::vertex || !(up > 0)) continue;
-      if (hides_below(c, {f.at.x + x / 2, f.at.y + y / 2}, f.z + up / 2, {-x / up, -y / up})) return true;
+      const Patch& body = envelope_.patches_[body_[k].label];
+      if (body.kind != f.kind) continue;
+      if (f.kind == FeatureKind::edge) {
+        if (hides_beside_crossing(c, body_[k].label)) return true;
+        continue;
+      }
+      const Real x = body.at.x - f.at.x, y = body.at.y - f.at.y, up = body.z - f.z;
+      if (up > 0 && hides_below(c, {f.at.x + x / 2, f.at.y + y / 2}, f.z + up / 2, {-x / up, -y / up})) return true;
     }
     return false;
   }
 
  private:
+  /// The same, where the axes of two cylinders cross.
+  bool hides_beside_crossing(Index c, Index other) {
+    HalfSpace part[2];
+    const std::size_t count = envelope_.outside_of_crossing(c, other, frame_, part);
+    return std::any_of(part, part + count, [&](const HalfSpace& h) {
+      return h.normal.z < -least_normal && hides_below(c, h.at, h.z, {-h.normal.x / h.normal.z, -h.normal.y / h.normal.z});
+    });
+  }
+
+  /// True if what of an edge's patch is outside of another label's cylinder lies beyond an upright plane, on the inner side of a
+  /// wall: where R is a whole number of cells walls run along such valleys.
+  bool is_cut_off(Index c, const Bound& wall) const {
+    if (!is_fine<Real> || wall.type != BoundType::line || envelope_.patches_[c].kind != FeatureKind::edge) return false;
+    for (std::size_t k = 0; k < bodies_; ++k) {
+      HalfSpace part[2];
+      const std::size_t count = envelope_.outside_of_crossing(c, body_[k].label, frame_, part);
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto& [at, z, normal] = part[i];
+        const Real length = norm(normal.x, normal.y);
+        if (!(absolute(normal.z) <= Precision<Real>::corner && length > least_normal)) continue;
+        const auto is_inside = [&](Point p) {
+          const Real beyond = (normal.x * (p.x - at.x) + normal.y * (p.y - at.y)) / length;
+          return envelope_.outside(wall, p) + beyond <= envelope_.tolerance_ / 4;
+        };
+        if (std::all_of(corner_.begin(), corner_.end(), is_inside)) return true;
+      }
+    }
+    return false;
+  }
+
   bool hides_below(Index c, Point at, Real z, Gradient slope) {
     return hides(c, Plane{z + slope.x * (frame_.mid.x - at.x) + slope.y * (frame_.mid.y - at.y), slope});
   }
@@ -219,6 +252,7 @@ class Envelope<Real>::Cover {
   }
 
   static constexpr std::size_t most = 4;
+  static constexpr double least_normal = 0x1p-20;  // of unit vectors' sums
   using Masks = std::array<unsigned, most>;  // per body: at which corners it is higher
   struct Body {
     Index label;
@@ -282,7 +316,9 @@ class Envelope<Real>::Cover {
   bool below_one(Index c, const Masks& m) const {
     for (std::size_t k = 0; k < bodies_; ++k) {
       if (m[k] != all_corners()) continue;
-      if (!body_[k].wall || envelope_.ends_before(c, body_[k].wall->outline, frame_.box)) return true;
+      if (!body_[k].wall) return true;
+      const Bound& wall = body_[k].wall->outline;
+      if (envelope_.ends_before(c, wall, frame_.box) || is_cut_off(c, wall)) return true;
     }
     return false;
   }

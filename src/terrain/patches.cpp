@@ -169,6 +169,7 @@ void PatchSet<Real>::build(const TerrainWindow& window, double radius) {
   boxes_.clear();
   bounds_.clear();
   corners_.clear();
+  overlaps_.clear();
   edges_.assign(window.edges().size(), {});
   face_patch_.assign(window.faces().size(), none);
   for (Index e = 0; e < edges_.size(); ++e) {
@@ -200,6 +201,7 @@ void PatchSet<Real>::build(const TerrainWindow& window, double radius) {
     const std::span<const Bound> sides{bounds_.data() + p.first_bound, p.bound_count};
     p.has_rim = std::any_of(sides.begin(), sides.end(), [](const Bound& b) { return b.rim; });
   }
+  if (!window.is_graph()) find_overlaps();
 }
 
 template <class Real>
@@ -214,6 +216,7 @@ void PatchSet<Real>::refine(const TerrainWindow& window, const PatchSet<double>&
   placed_list_.clear();
   bounds_.clear();
   corners_.clear();
+  overlaps_.clear();
 }
 
 /// Room for all patches. What is there from windows before is empty: few patches are ever loaded.
@@ -262,6 +265,7 @@ void PatchSet<Real>::load(Index i) {
   Patch& p = patches_[i];
   p.kind = model.kind;
   p.has_rim = model.has_rim;
+  p.overlaps = model.overlaps;
   p.feature = model.feature;
   p.item = model.item;
   const BoxOf<double>& box = coarse_->box(i);
@@ -277,13 +281,18 @@ void PatchSet<Real>::load(Index i) {
   }
   p.first_bound = Index(bounds_.size());
   p.bound_count = model.bound_count;
-  for (const BoundOf<double>& side : coarse_->bounds(i)) {
+  const auto same = [&](const BoundOf<double>& side) {
     if (side.edge != none) place(side.edge);
     Bound b = bound(p, side.source, side.edge);
     b.negative = side.negative;
     b.partner = side.partner;
     b.rim = side.rim;
-    bounds_.push_back(b);
+    return b;
+  };
+  for (const BoundOf<double>& side : coarse_->bounds(i)) bounds_.push_back(same(side));
+  if (!p.overlaps) return;
+  for (const auto& o : coarse_->overlaps_) {
+    if (o.patch == i) overlaps_.push_back({i, o.other, same(o.side)});
   }
 }
 

@@ -70,6 +70,7 @@ struct PatchOf {
   using Point = PointOf<Real>;
   Terrain::FeatureKind kind;
   bool has_rim;  ///< one of the bounds is a rim
+  bool overlaps;  ///< an edge that continues another one in its line, with a part of its own in common
   Index feature;
   Index item;  ///< number of the face, edge or vertex in the window
   Index first_bound;
@@ -144,8 +145,12 @@ class PatchSet {
   /// Height of a convex body that is part of the sum and has the patch on its boundary: ball, cigar or krepl. Concave in p.
   Real body_height(Index i, Point p) const;
 
-  /// The bound that patches i and j share, if they are neighbours; null otherwise.
+  /// The bound that patches i and j share, as that of i, if they are neighbours; null otherwise. Two edges in one line with a part
+  /// in common are neighbours where the one that counts as seen there ends.
   const Bound* seam(Index i, Index j) const;
+
+  /// Of patches that are equally high, true if i is the one that counts as seen.
+  bool precedes(Index i, Index j) const;
 
  private:
   /// What is known of each edge of the window: its frame, and the stretch of normals b in [lo, hi] (components along the left
@@ -174,6 +179,7 @@ class PatchSet {
   bool is_below_another(Index edge) const;
   /// Of the vertex asked for last.
   const NormalPolygon& normals_of(Index vertex) const;
+  void find_overlaps();
   void add_face(Index face);
   void add_edge(Index edge);
   void add_vertex(Index vertex);
@@ -189,6 +195,12 @@ class PatchSet {
   Real cigar_height(Index edge, Point p) const;
   Real ball_height(Point at, Real z, Point p) const;
 
+  /// A bound that a patch shares with another one, but which is none of its domain, or not with that one.
+  struct Overlap {
+    Index patch, other;
+    Bound side;
+  };
+
   const TerrainWindow* window_ = nullptr;
   const PatchSet<double>* coarse_ = nullptr;
   template <class Other>
@@ -199,6 +211,7 @@ class PatchSet {
   std::vector<Box> boxes_;  // apart from patches_: most patches are told to be elsewhere by their box alone
   std::vector<Bound> bounds_;
   std::vector<Point> corners_;
+  std::vector<Overlap> overlaps_;
   std::vector<EdgeFrame> edges_;
   std::vector<Index> face_patch_;
   // Of a refined set:
@@ -249,7 +262,20 @@ inline const BoundOf<Real>* PatchSet<Real>::seam(Index i, Index j) const {
   for (const Bound& b : bounds(i)) {
     if (b.partner == j) return &b;
   }
+  if (!patches_[i].overlaps) return nullptr;
+  for (const Overlap& o : overlaps_) {
+    if (o.patch == i && o.other == j) return &o.side;
+  }
   return nullptr;
+}
+
+template <class Real>
+inline bool PatchSet<Real>::precedes(Index i, Index j) const {
+  const Patch &f = patches_[i], &g = patches_[j];
+  if (f.kind != g.kind) return f.kind > g.kind;  // face, edge, vertex
+  // Of two edges in one line the one of which the other may be a part.
+  if (f.kind == Terrain::FeatureKind::edge && f.length != g.length) return f.length > g.length;
+  return f.feature < g.feature;
 }
 
 extern template class PatchSet<double>;

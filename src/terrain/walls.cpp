@@ -47,10 +47,8 @@ bool Envelope<Real>::ends_before(Index i, const Bound& wall, const Box& box) con
     const auto is_centre = [&](Point p) { return norm(p.x - wall.at.x, p.y - wall.at.y) <= tolerance; };
     if (f.kind != FeatureKind::edge) return f.kind == FeatureKind::vertex && is_centre(f.at);
     // Beyond its end an edge's body is a ball.
-    const Point mid = box.middle();
-    const Real along = (mid.x - f.at.x) * f.gx + (mid.y - f.at.y) * f.gy;
-    const Real spread =
-        absolute(f.gx) * box.half_x() + absolute(f.gy) * box.half_y() - square_root(patches_.radius() * tolerance);
+    const Real along = f.along(box.middle());
+    const Real spread = absolute(f.gx) * box.half_x() + absolute(f.gy) * box.half_y();
     if (along + spread <= 0) return is_centre(f.at);
     return along - spread >= f.length && is_centre(f.end());
   }
