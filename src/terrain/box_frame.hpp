@@ -23,7 +23,7 @@ inline std::array<Real, 4> Envelope<Real>::Plane::at_corners(const BoxFrame& box
 /// less for rounding. `least_up`, `most_up`: of the height over the rim that a cone's value depends on.
 template <class Real>
 template <int sign>
-inline Real Envelope<Real>::extreme(const Bound& b, const BoxFrame& f, Real least_up, Real most_up) const {
+[[gnu::always_inline]] inline Real Envelope<Real>::extreme(const Bound& b, const BoxFrame& f, Real least_up, Real most_up) const {
   const Real dx = f.mid.x - b.at.x, dy = f.mid.y - b.at.y;
   const Real slack = Precision<Real>::rounding * (absolute(dx) + absolute(dy) + f.hx + f.hy);
   if (b.type == BoundType::line) {

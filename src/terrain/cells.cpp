@@ -299,13 +299,18 @@ bool Cells<Real>::stays_valley(const Turn& from, Point to, const Box& box) const
     if (std::none_of(sides.begin(), sides.end(), [&](const Bound& b) { return b.rim && !envelope_.covers(b, box); })) continue;
     const Gradient wall = envelope_.rim_gradient(upright);
     const bool round = patches[upright].kind == Terrain::FeatureKind::vertex;
-    const Real sagitta = round ? (dx * dx + dy * dy) / (4 * patches.radius()) : 0;
-    for (const Point p : {from.at, to}) {
+    Real above[2], steepest = 0;
+    for (const int end : {0, 1}) {
+      const Point p = end == 0 ? from.at : to;
       const Gradient g = patches.gradient(other, p);
-      const Real slope = norm(g.x - wall.x, g.y - wall.y);
-      const Real above = envelope_.clamped_height(other, p) - envelope_.rim_height(upright, p);
-      if (above - slope * sagitta < -64 * envelope_.tolerance() * (1 + slope)) return false;
+      steepest = std::max(steepest, norm(g.x - wall.x, g.y - wall.y));
+      above[end] = envelope_.clamped_height(other, p) - envelope_.rim_height(upright, p);
     }
+    // Between the ends, at u in [0, 1], at least (1 - u) above[0] + u above[1] - most u (1 - u).
+    const Real most = round ? steepest * (dx * dx + dy * dy) / patches.radius() : Real(0), rise = above[1] - above[0];
+    Real least = std::min(above[0], above[1]);
+    if (most > absolute(rise)) least = (above[0] + above[1]) / 2 - (most + rise * rise / most) / 4;
+    if (least < -64 * envelope_.tolerance() * (1 + steepest)) return false;
   }
   return true;
 }
@@ -441,7 +446,7 @@ bool Cells<Real>::settle_star(const Box& box, bool smallest) {
   if (!found && !smallest) return false;
   if (found && finer_ != nullptr && is_steep()) return false;
   if (!smallest &&
-      !std::all_of(turns_.begin(), turns_.end(), [&](const Turn& t) { return stays_wall(t, *found, box); }))
+      !std::all_of(turns_.begin(), turns_.end(), [&](const Turn& t) { return stays_wall(t, *found, box) && stays_valley(t, *found, box); }))
     return false;
   const Point p = found ? *found : least_gap(box);
   add_vertex(known_beside(p));

@@ -68,6 +68,18 @@ class Cells {
     bool at_rim;  // b's height where it ends in a wall
   };
 
+  /// A function over a box: in its middle, up to second derivatives, and how large third ones may be along any direction.
+  struct Expansion {
+    Real value;
+    Gradient gradient;
+    typename Envelope<Real>::Curvature curvature;
+    Expansion operator-(const Expansion& e) const {
+      return {value - e.value, {gradient.x - e.gradient.x, gradient.y - e.gradient.y}, curvature + e.curvature * Real(-1)};
+    }
+    Expansion operator*(Real k) const { return {k * value, {k * gradient.x, k * gradient.y}, curvature * k}; }
+    Real most(const Box& box) const;
+  };
+
   static constexpr std::size_t most_settled = 24;  // candidates; cells with more are cut at once
 
   bool subdivide(const Cell& cell, std::size_t first, int depth);
@@ -142,7 +154,12 @@ class Cells {
   std::optional<Point> end_of_thin_strip() const;
   bool is_thin_bend(Index a, Index b, const Box& box) const;
   bool is_tangent_sliver(Index patch, const Box& box) const;
-  bool is_met_along(Index patch, const Bound& wall, Index behind, const Box& box) const;
+  bool is_met_along_wall(Index patch, const Bound& wall, Index behind, const Box& box) const;
+  bool is_met_beside_wall(Index patch, Index upper, const Box& box) const;
+  bool are_apart_by_expansion(const Turn& s, const Turn& t, const Box& box) const;
+  Expansion height_expansion(Index patch, const Box& box) const;
+  Expansion side_expansion(const Bound& side, const Box& box) const;
+  std::optional<Expansion> upright_expansion(Index round, Index other, const Box& box) const;
   bool is_hidden_beside_wall(Index patch, const Box& box) const;
   bool all_are_prisms(std::span<const Index> candidates, const Box& box) const;
   bool is_hidden(Index patch, const Box& box) const;

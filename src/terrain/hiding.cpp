@@ -313,6 +313,22 @@ class Envelope<Real>::Cover {
     return m;
   }
 
+  /// The same of a body that ends in the box in a straight wall, on the inner side of that: where a plane is as high as the wall all
+  /// along it, the body rises faster.
+  bool is_above_inside(const Body& b, const std::array<Real, 4>& t) const {
+    if (b.wall->outline.type != BoundType::line) return false;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t j = (i + 1) % 4;
+      const Real here = envelope_.outside(b.wall->outline, corner_[i]), next = envelope_.outside(b.wall->outline, corner_[j]);
+      if (here < 0 && !(envelope_.patches_.body_height(b.label, corner_[i]) - noise_ > t[i])) return false;
+      if ((here < 0) == (next < 0)) continue;
+      const Real u = here / (here - next);
+      const Point p{corner_[i].x + u * (corner_[j].x - corner_[i].x), corner_[i].y + u * (corner_[j].y - corner_[i].y)};
+      if (!(envelope_.rim_height(b.label, p) - b.wall->lowered + noise_ > t[i] + u * (t[j] - t[i]))) return false;
+    }
+    return true;
+  }
+
   bool below_one(Index c, const Masks& m) const {
     for (std::size_t k = 0; k < bodies_; ++k) {
       if (m[k] != all_corners()) continue;
@@ -332,8 +348,8 @@ class Envelope<Real>::Cover {
         const Body &a = body_[k], &b = body_[l];
         if (!a.ends && !b.ends && below_mean(a, b, t)) return true;
         // Two walls back to back: one of the bodies is there at every place that matters.
-        if (m[k] == m[l] && a.wall && b.wall &&
-            envelope_.back_to_back(a.wall->outline, b.wall->outline, frame_.box, 0)) {
+        if (a.wall && b.wall && envelope_.back_to_back(a.wall->outline, b.wall->outline, frame_.box, 0) &&
+            (m[k] == all_corners() || is_above_inside(a, t)) && (m[l] == all_corners() || is_above_inside(b, t))) {
           return true;
         }
       }

@@ -185,22 +185,18 @@ template <class Real>
 bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
   const PatchSet<Real>& patches = envelope_.patches();
   const Point mid = box.middle();
-  using Curvature = typename Envelope<Real>::Curvature;
   struct Function {
     Real value;
     Gradient gradient;
     GradientRange range;
-    Curvature curvature;
   };
   const auto side = [&](const Bound& b) {
     const Real sign = b.sign();
     const Gradient g = envelope_.bound_gradient(b, mid);
     const GradientRange r = envelope_.bound_gradient_range(b, box);
     const Range factor{sign, sign};
-    return Function{sign * b.value(mid, patches.square_radius()),
-                    {sign * g.x, sign * g.y},
-                    {r.x * factor, r.y * factor},
-                    envelope_.curvature(b, box) * sign};
+    return Function{
+        sign * b.value(mid, patches.square_radius()), {sign * g.x, sign * g.y}, {r.x * factor, r.y * factor}};
   };
   const auto hidden_by = [&](Index other) {
     if (const std::optional<Bound> wall = envelope_.wall_above(other, patch, box)) return side(*wall);
@@ -208,14 +204,17 @@ bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
     const GradientRange cs = envelope_.gradient_range(patch, box), os = envelope_.gradient_range(other, box);
     return Function{patches.extended_height(patch, mid) - patches.extended_height(other, mid),
                     {c.x - o.x, c.y - o.y},
-                    {cs.x - os.x, cs.y - os.y},
-                    envelope_.curvature(patch, box) + envelope_.curvature(other, box) * Real(-1)};
+                    {cs.x - os.x, cs.y - os.y}};
+  };
+  const auto curvature_of_side = [&](const Bound& b) { return envelope_.curvature(b, box) * b.sign(); };
+  const auto curvature_of_hidden = [&](Index other) {
+    if (const std::optional<Bound> wall = envelope_.wall_above(other, patch, box)) return curvature_of_side(*wall);
+    return envelope_.curvature(patch, box) + envelope_.curvature(other, box) * Real(-1);
   };
   const auto least = [](Range r) { return r.low > 0 ? r.low : r.high < 0 ? -r.high : Real(0); };
   const auto largest = [](Range r) { return std::max(absolute(r.low), absolute(r.high)); };
-  const Real hx = box.half_x(), hy = box.half_y();
   // True if some label other than `beside` hides the patch wherever g is below -across times the tolerance.
-  const auto hides_beyond = [&](const Function& g, Real across, Index beside) {
+  const auto hides_beyond = [&](const Bound& b, const Function& g, Real across, Index beside) {
     const Real square = g.gradient.x * g.gradient.x + g.gradient.y * g.gradient.y;
     across = std::max(across, norm(least(g.range.x), least(g.range.y)));
     for (const Turn& t : turns_) {
@@ -226,18 +225,17 @@ bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
       const Range factor{k, k};
       const GradientRange d{f.range.x - g.range.x * factor, f.range.y - g.range.y * factor};
       const Real middle = f.value - k * g.value, most = 2 * k * across * envelope_.tolerance();
-      if (middle + largest(d.x) * hx + largest(d.y) * hy <= most) return true;
+      if (middle + largest(d.x) * box.half_x() + largest(d.y) * box.half_y() <= most) return true;
+      if (!(middle < most)) continue;
       // Where the two are tangent in a higher order gradients tell less than what is beyond them.
-      const Curvature c = f.curvature + g.curvature * -k;
-      const Real bend = absolute(c.xx) * hx * hx + 2 * absolute(c.xy) * hx * hy + absolute(c.yy) * hy * hy;
-      const Real half = norm(hx, hy), slope_x = absolute(f.gradient.x - k * g.gradient.x), slope_y = absolute(f.gradient.y - k * g.gradient.y);
-      if (middle + slope_x * hx + slope_y * hy + bend / 2 + c.third * half * half * half / 6 <= most) return true;
+      const Expansion hidden{f.value, f.gradient, curvature_of_hidden(t.after)}, beyond{g.value, g.gradient, curvature_of_side(b)};
+      if ((hidden - beyond * k).most(box) <= most) return true;
     }
     return false;
   };
   for (const Bound& b : patches.bounds(patch)) {
     if (b.partner == none ? !b.rim : !is_seen(b.partner)) continue;
-    if (hides_beyond(side(b), b.type == BoundType::disc ? 0 : 1, b.partner)) return true;
+    if (hides_beyond(b, side(b), b.type == BoundType::disc ? 0 : 1, b.partner)) return true;
   }
   // At the foot of another one's wall, or beside it where that one rises above the patch only further inside.
   for (const Turn& t : turns_) {
@@ -250,56 +248,11 @@ bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
           return other.after != none && other.after != t.after && envelope_.is_image(patch, other.after, outside, box);
         }))
       return true;
-    if (wall->inset == 0 && is_met_along(patch, outside, t.after, box)) return true;
+    if (wall->inset == 0 ? is_met_along_wall(patch, outside, t.after, box) : is_met_beside_wall(patch, t.after, box)) return true;
     const bool round = outside.type == BoundType::disc;
     Function g = side(outside);
     g.value = g.value - wall->inset * (round ? 2 * patches.radius() : Real(1));
-    if (hides_beyond(g, round ? 0 : 1, t.after)) return true;
-  }
-  return false;
-}
-
-/// True if a cylinder or sphere lies below a label, but `behind`, wherever it is outside of a wall, its side of which is given, by
-/// more than the tolerance: both may be tangent to the wall, and beside its own wall the patch is in half of a^2 + b^2 - R^2, with
-/// a the distance from its axis and b the label's height over that (Envelope::upright_value). By second derivatives, third ones
-/// being bounded.
-template <class Real>
-bool Cells<Real>::is_met_along(Index patch, const Bound& wall, Index behind, const Box& box) const {
-  const PatchSet<Real>& patches = envelope_.patches();
-  const Patch& p = patches[patch];
-  if (p.kind == FeatureKind::face) return false;
-  const bool round = p.kind == FeatureKind::vertex;
-  const Point mid = box.middle();
-  const Real hx = box.half_x(), hy = box.half_y(), half = norm(hx, hy);
-  const Real scale = wall.sign() / (wall.type == BoundType::disc ? 2 * patches.radius() : Real(1));
-  const auto [wall_x, wall_y] = envelope_.bound_gradient(wall, mid);
-  const Gradient g{scale * wall_x, scale * wall_y};
-  const Real depth = scale * wall.value(mid, patches.square_radius());
-  const auto wall_bend = envelope_.curvature(wall, box) * scale;
-  const Gradient axis = envelope_.rim_gradient(patch);
-  const Real dx = mid.x - p.at.x, dy = mid.y - p.at.y, q = round ? Real(1) : p.q, aside = p.aside(mid);
-  for (const Turn& t : turns_) {
-    if (t.after == none || t.after == behind) continue;
-    const auto bend = envelope_.curvature(t.after, box) * (1 / q);
-    if (!is_finite(bend.third)) continue;
-    const Real over = (patches.extended_height(t.after, mid) - (p.z + axis.x * dx + axis.y * dy)) / q;
-    const Gradient slope = patches.gradient(t.after, mid), rise{(slope.x - axis.x) / q, (slope.y - axis.y) / q};
-    // Over all of the box.
-    const Real most_bend = norm(norm(bend.xx, bend.yy), norm(bend.xy, bend.xy)) + bend.third * half;
-    const Real most_rise = size(rise) + most_bend * half, most_over = over + most_rise * half;
-    if (!(over > most_rise * half)) continue;
-    const Gradient f{-over * rise.x - (round ? dx : -aside * p.gy), -over * rise.y - (round ? dy : aside * p.gx)};
-    const Real xx = -rise.x * rise.x - over * bend.xx - (round ? Real(1) : p.gy * p.gy);
-    const Real xy = -rise.x * rise.y - over * bend.xy + (round ? Real(0) : p.gx * p.gy);
-    const Real yy = -rise.y * rise.y - over * bend.yy - (round ? Real(1) : p.gx * p.gx);
-    const Real third = 3 * most_rise * most_bend + most_over * bend.third;
-    const Real k = (f.x * g.x + f.y * g.y) / (g.x * g.x + g.y * g.y);
-    if (!(k > 0)) continue;
-    const Real most = -envelope_.upright_value(patch, t.after, mid) - k * depth + absolute(f.x - k * g.x) * hx +
-                      absolute(f.y - k * g.y) * hy + absolute(xx - k * wall_bend.xx) * hx * hx / 2 +
-                      absolute(xy - k * wall_bend.xy) * hx * hy + absolute(yy - k * wall_bend.yy) * hy * hy / 2 +
-                      third * half * half * half / 6;
-    if (most <= k * 2 * envelope_.tolerance()) return true;  // twice: lines round what they leave out
+    if (hides_beyond(outside, g, round ? 0 : 1, t.after)) return true;
   }
   return false;
 }

@@ -196,6 +196,7 @@ bool Cells<Real>::are_apart(const Strand& a, const Strand& b, std::optional<Poin
       if (envelope_.stay_apart(l, beyond(s), beyond(t), box)) return true;
     }
   }
+  if (!vertex && are_apart_by_expansion(s, t, box)) return true;
   // Closer than the tolerance they may touch: a seam and a valley that are tangent.
   const Real room = std::max(distance(s.at, a.end, t.at, b.end), envelope_.tolerance());
   return bend(s, a.end, box) + bend(t, b.end, box) < room;
