@@ -181,7 +181,7 @@ void Union::set_ends(std::vector<Arc>& arcs) {
   // corner of a patch.
   for (Arc& arc : arcs) {
     for (const int side : {0, 1}) {
-      const bool known = flat_distance(arc.point(arc.early[side]), arc.point(arc.late[side])) <= tolerance_.weld;
+      const bool known = flat_distance(arc.point(arc.early[side]), arc.point(arc.late[side])) <= tolerance_.weld / 16;
       if (arc.vertex[side] == none && known) arc.vertex[side] = map_.vertex_at(place(arc, side));
     }
   }
@@ -191,21 +191,26 @@ void Union::set_ends(std::vector<Arc>& arcs) {
       Arc open = arc;
       open.begin = arc.early[side], open.end = arc.late[side];
       PlanarMap::measure(open);
-      const auto try_place = [&](Vector p) {
+      const auto try_place = [&](Vector p, Real distance) {
         if (arc.vertex[side] != none) return;
-        const auto t = PlanarMap::passes(open, p, tolerance_.weld);
+        const auto t = PlanarMap::passes(open, p, distance);
         if (!t) return;
         arc.vertex[side] = map_.vertex_at(p);
         (side == 0 ? arc.begin : arc.end) = *t;
       };
-      for (const Vector p : corners_) try_place(p);
-      for (Index v = 0; v < map_.vertex_count() && arc.vertex[side] == none; ++v) try_place(map_.vertex(v));
+      const auto try_vertices = [&](Real distance) {
+        for (Index v = 0; v < map_.vertex_count() && arc.vertex[side] == none; ++v) try_place(map_.vertex(v), distance);
+      };
+      for (const Vector p : corners_) try_place(p, tolerance_.weld);
+      try_vertices(tolerance_.weld);
       if (arc.vertex[side] == none) {
         if (const auto t = nearest_crossing(open, side == 0 ? arc.begin : arc.end, arcs, tolerance_.weld)) {
           arc.vertex[side] = map_.vertex_at(open.point(*t));
           (side == 0 ? arc.begin : arc.end) = *t;
         }
       }
+      // Where surfaces meet at a small angle rounding moves their curve by as much more.
+      try_vertices(64 * tolerance_.weld);
       if (arc.vertex[side] == none) arc.vertex[side] = map_.vertex_at(place(arc, side));
       PlanarMap::measure(arc);
     }
