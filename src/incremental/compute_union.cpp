@@ -177,43 +177,50 @@ void Union::keep(const CurvePointer& curve, const std::vector<Interval>& interva
 
 void Union::set_ends(std::vector<Arc>& arcs) {
   const auto place = [](const Arc& arc, int side) { return arc.point(side == 0 ? arc.begin : arc.end); };
-  // Ends that are known first, then those that the tolerance leaves open: they go to a vertex if there is one, or to a
-  // corner of a patch.
+  // Ends that are known first, then those that the tolerance leaves open, the longer the later: they go to a vertex if there is
+  // one, or to a corner of a patch.
+  struct End {
+    Arc* arc;
+    int side;
+    Real open;
+  };
+  std::vector<End> ends;
   for (Arc& arc : arcs) {
     for (const int side : {0, 1}) {
-      const bool known = flat_distance(arc.point(arc.early[side]), arc.point(arc.late[side])) <= tolerance_.weld / 16;
-      if (arc.vertex[side] == none && known) arc.vertex[side] = map_.vertex_at(place(arc, side));
+      if (arc.vertex[side] == none) ends.push_back({&arc, side, flat_distance(arc.point(arc.early[side]), arc.point(arc.late[side]))});
     }
   }
-  for (Arc& arc : arcs) {
-    for (const int side : {0, 1}) {
-      if (arc.vertex[side] != none) continue;
-      Arc open = arc;
-      open.begin = arc.early[side], open.end = arc.late[side];
-      PlanarMap::measure(open);
-      const auto try_place = [&](Vector p, Real distance) {
-        if (arc.vertex[side] != none) return;
-        const auto t = PlanarMap::passes(open, p, distance);
-        if (!t) return;
-        arc.vertex[side] = map_.vertex_at(p);
-        (side == 0 ? arc.begin : arc.end) = *t;
-      };
-      const auto try_vertices = [&](Real distance) {
-        for (Index v = 0; v < map_.vertex_count() && arc.vertex[side] == none; ++v) try_place(map_.vertex(v), distance);
-      };
-      for (const Vector p : corners_) try_place(p, tolerance_.weld);
-      try_vertices(tolerance_.weld);
-      if (arc.vertex[side] == none) {
-        if (const auto t = nearest_crossing(open, side == 0 ? arc.begin : arc.end, arcs, tolerance_.weld)) {
-          arc.vertex[side] = map_.vertex_at(open.point(*t));
-          (side == 0 ? arc.begin : arc.end) = *t;
-        }
-      }
-      // Where surfaces meet at a small angle rounding moves their curve by as much more.
-      try_vertices(64 * tolerance_.weld);
-      if (arc.vertex[side] == none) arc.vertex[side] = map_.vertex_at(place(arc, side));
-      PlanarMap::measure(arc);
+  std::stable_sort(ends.begin(), ends.end(), [](const End& e, const End& f) { return e.open < f.open; });
+  for (const auto& [end_of, side, length] : ends) {
+    Arc& arc = *end_of;
+    if (length <= tolerance_.weld / 16) {
+      arc.vertex[side] = map_.vertex_at(place(arc, side));
+      continue;
     }
+    Arc open = arc;
+    open.begin = arc.early[side], open.end = arc.late[side];
+    PlanarMap::measure(open);
+    const auto move_to = [&](Real t, Index vertex) {
+      arc.vertex[side] = vertex;
+      (side == 0 ? arc.begin : arc.end) = t;
+    };
+    const auto try_place = [&](Vector p, Real distance) {
+      if (arc.vertex[side] != none) return;
+      if (const auto t = PlanarMap::passes(open, p, distance)) move_to(*t, map_.vertex_at(p));
+    };
+    const auto try_vertices = [&](Real distance) {
+      for (Index v = 0; v < map_.vertex_count() && arc.vertex[side] == none; ++v) try_place(map_.vertex(v), distance);
+    };
+    for (const Vector p : corners_) try_place(p, tolerance_.weld);
+    try_vertices(tolerance_.weld);
+    if (arc.vertex[side] == none) {
+      if (const auto t = nearest_crossing(open, side == 0 ? arc.begin : arc.end, arcs, tolerance_.weld))
+        move_to(*t, map_.vertex_at(open.point(*t)));
+    }
+    // Where surfaces meet at a small angle rounding moves their curve by as much more.
+    try_vertices(64 * tolerance_.weld);
+    if (arc.vertex[side] == none) arc.vertex[side] = map_.vertex_at(place(arc, side));
+    PlanarMap::measure(arc);
   }
   std::erase_if(arcs,
                 [&](const Arc& arc) { return arc.vertex[0] == arc.vertex[1] && arc.reach <= 4 * tolerance_.weld; });
