@@ -8,6 +8,7 @@
 
 #include "feature_zones.hpp"
 #include "input/feature_reader.hpp"
+#include "krepl/curve_zone.hpp"
 #include "krepl/zone.hpp"
 #include "output/feature_file.hpp"
 #include "shape_options.hpp"
@@ -53,15 +54,16 @@ Status check_shape(const FeatureJob& job, const std::vector<double>& radii) {
 }
 
 /// One dissolved zone whose features have radii of their own.
+template <class AnyNetwork>
 int write_dissolved(const FeatureJob& job, const input::FeatureData& data, Session& session, Stopwatch& total) {
-  Network::Builder builder;
+  typename AnyNetwork::Builder builder;
   std::vector<double> radii;
   add_features(data, all_features(data), builder, radii);
-  Result<Network> network = std::move(builder).build(session.context("reading"));
+  Result<AnyNetwork> network = std::move(builder).build(session.context("reading"));
   const std::string in_name = input_name(job.input.path), out_name = output_name(job.output);
   if (!network) return session.fail(in_name, network.error());
   Result<Zone> zone =
-      compute_zone(std::make_shared<const Network>(std::move(*network)), radii, session.context("computing"));
+      compute_zone(std::make_shared<const AnyNetwork>(std::move(*network)), radii, session.context("computing"));
   if (!zone) return session.fail(in_name, zone.error());
   auto report = output::write_zones(job.output, {&*zone, 1}, job.format, job.file, session.context("writing"));
   if (!report) return session.fail(out_name, report.error());
@@ -136,7 +138,7 @@ int run_feature_buffer(const FeatureJob& job, Session& session) {
     radii = std::move(*parsed);
   }
   if (Status checked = check_shape(job, radii); !checked) return session.fail("", checked.error());
-  request.network.keep_arcs = job.engine == "auto" && groups_take_arcs(job.features, job.shape, radii.empty());
+  request.network.keep_arcs = job.engine == "auto" && groups_take_arcs(job.features, job.shape);
   const std::string in_name = input_name(job.input.path);
   Result<input::FeatureData> data = input::read_features(request, session.context("reading"));
   if (!data) return session.fail(in_name, data.error());
@@ -145,7 +147,10 @@ int run_feature_buffer(const FeatureJob& job, Session& session) {
   FeatureJob with_crs = job;
   with_crs.file.crs = data->crs;
   const FeatureOptions& f = job.features;
-  if (!f.per_feature && f.dissolve_by.empty() && f.owner.empty()) return write_dissolved(with_crs, *data, session, total);
+  if (!f.per_feature && f.dissolve_by.empty() && f.owner.empty()) {
+    return data->parts.middle.empty() ? write_dissolved<Network>(with_crs, *data, session, total)
+                                      : write_dissolved<CurveNetwork>(with_crs, *data, session, total);
+  }
   if (!is_plain(job.shape, radii)) {
     const Status told = data->parts.middle.empty() ? tell_faults<Network>(*data, in_name, session)
                                                    : tell_faults<CurveNetwork>(*data, in_name, session);

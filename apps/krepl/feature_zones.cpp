@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <type_traits>
 
 #include "kernel/parallel.hpp"
 #include "krepl/curve_zone.hpp"
@@ -70,9 +69,7 @@ class GroupZones {
     ShapeOptions shape = job_.job.shape;
     if (!own || !part_radii.empty()) shape.distance = own ? part_radii.front() : job_.radii[k % per_group_];
     if (!is_plain(shape, {shape.distance})) return compute_shape(std::move(shared), shape, context);
-    if constexpr (std::is_same_v<AnyNetwork, Network>) {
-      if (own) return compute_zone(std::move(shared), part_radii, context);
-    }
+    if (own) return compute_zone(std::move(shared), part_radii, context);
     return compute_zone(std::move(shared), ZoneOptions{shape.distance}, context);
   }
   Result<Zone> compute(std::size_t k, const Context& context) const {
@@ -141,9 +138,8 @@ output::FeatureColumns columns_of(const GroupJob& job) {
   return columns;
 }
 
-bool groups_take_arcs(const FeatureOptions& features, const ShapeOptions& shape, bool own_radii) {
-  const bool one_radius = !own_radii || features.per_feature;
-  return (features.per_feature || !features.dissolve_by.empty()) && features.owner.empty() && one_radius && takes_arcs(shape);
+bool groups_take_arcs(const FeatureOptions& features, const ShapeOptions& shape) {
+  return features.owner.empty() && takes_arcs(shape);
 }
 
 int write_groups(const GroupJob& job, Session& session) {

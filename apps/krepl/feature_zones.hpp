@@ -44,7 +44,7 @@ void add_features(const input::FeatureData& data, const std::vector<std::size_t>
   }
 }
 /// True if zones of features or groups are made of arcs as they are; else they are to be replaced by chords.
-bool groups_take_arcs(const FeatureOptions& features, const ShapeOptions& shape, bool own_radii);
+bool groups_take_arcs(const FeatureOptions& features, const ShapeOptions& shape);
 
 /// The fields of the file: those of the features, or the one that groups have in common; radius, area, perimeter.
 output::FeatureColumns columns_of(const GroupJob& job);

@@ -61,8 +61,7 @@ Result<Loaded> load(const FeatureVerification& job, Session& session, bool& faul
   const verify::InputRequest& in = job.input;
   fault_of_result = false;
   input::FeatureRequest request{verify::network_request(in), in.radius_field, in.radius_expression, job.features.dissolve_by};
-  request.network.keep_arcs =
-      groups_take_arcs(job.features, job.shape, !in.radius_field.empty() || !in.radius_expression.empty());
+  request.network.keep_arcs = groups_take_arcs(job.features, job.shape);
   auto data = input::read_features(request, session.context("reading"));
   session.finish_progress();
   if (!data) return data.error();

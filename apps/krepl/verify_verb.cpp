@@ -189,7 +189,7 @@ int verify_zones(const VerifyOptions& options, Session& session) {
     if (Status told = tell_bands(*zones, radii); !told) return session.fail(options.result, told.error());
   }
   verify::InputRequest request = options.input;
-  request.keep_arcs = takes_arcs(*shape) && !varied;
+  request.keep_arcs = takes_arcs(*shape);
   auto parts = verify::read_parts(request, session.context("reading"));
   session.finish_progress();
   if (!parts) return session.fail(options.input.path, parts.error());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "krepl/context.hpp"
 #include "krepl/curve_network.hpp"
@@ -20,6 +21,11 @@ namespace krepl {
 /// the order of pieces. Errors: radius not finite and positive, or finer than the coordinates' resolution; cancelled; a
 /// result that does not certify. Expected O(n log n); some 100 µs an element.
 Result<Zone> compute_zone(std::shared_ptr<const CurveNetwork> network, const ZoneOptions& options,
+                          const Context& context = {});
+
+/// The same with a radius for each part of the network (part_radii[p] for network->straight().part(p)), as compute_zone of a Network
+/// has it: the union of the parts' own zones; what parts share has the largest of their radii.
+Result<Zone> compute_zone(std::shared_ptr<const CurveNetwork> network, std::span<const double> part_radii,
                           const Context& context = {});
 
 /// The same in one of the shapes of krepl/shape.hpp, as compute_shape of a Network makes them, without chords: caps and

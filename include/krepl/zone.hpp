@@ -78,7 +78,7 @@ class Zone {
   /// The radius with a sign: negative where polygons were shrunk.
   double signed_radius() const { return inward_ ? -radius_ : radius_; }
   /// The smallest.
-  double least_radius() const;
+  double least_radius() const { return least_radius_; }
   /// Of a band (zone_band): what is no farther than this from the network is left out. 0: a whole zone.
   double inner_radius() const { return inner_radius_; }
   /// Largest of radius and extent: the S of the accuracy contract.
@@ -113,7 +113,7 @@ class Zone {
   Piece local_piece(std::uint32_t e) const;
   double ring_area(std::uint32_t r) const;
 
-  double radius_ = 0, inner_radius_ = 0;
+  double radius_ = 0, least_radius_ = 0, inner_radius_ = 0;
   std::uint32_t outer_pieces_ = ~std::uint32_t{0};  // a band's inner border begins there
   bool inward_ = false;
   std::shared_ptr<const Network> network_;

@@ -40,19 +40,20 @@ bool is_round(const ShapeOptions& o) { return o.cap == Cap::round && o.join == J
 
 }  // namespace
 
-Bodies::Bodies(const CurveNetwork& network, const ShapeOptions& options, double nominal_radius,
-               double effective_radius, double resolution, std::uint64_t seed)
+Bodies::Bodies(const CurveNetwork& network, const ShapeOptions& options, const Radii& radii, double enlargement,
+               double resolution, std::uint64_t seed)
     : options_(options),
       network_(network),
-      nominal_radius_(nominal_radius),
-      effective_radius_(effective_radius),
+      radii_(radii),
+      enlargement_(enlargement),
       resolution_(resolution),
-      scale_(network.extent() + 2 * effective_radius * (options.join == Join::mitre ? options.mitre_limit : 1.0)),
+      scale_(network.extent() + 2 * effective(radii.most()) * (options.join == Join::mitre ? options.mitre_limit : 1.0)),
       vast_(0x1p6 * scale_),
-      move_(0x1p-9 * (effective_radius - nominal_radius)),
-      excess_(0x1p-6 * (effective_radius - nominal_radius)),
+      move_(0x1p-9 * enlargement),
+      excess_(0x1p-6 * enlargement),
       seed_(seed) {
-  for (const auto& arc : network.arcs()) courses_.push_back(course_of(arc));
+  for (Index a = 0; a < network.arcs().size(); ++a)
+    courses_.push_back(course_of(network.arcs()[a], effective(radii.of_arc(a))));
   if (is_round(options))
     list_round();
   else
@@ -64,7 +65,7 @@ Q Bodies::at(Index vertex) const {
   return {p.x, p.y};
 }
 
-Course Bodies::course_of(const CurveNetwork::Arc& arc) const {
+Course Bodies::course_of(const CurveNetwork::Arc& arc, double radius) const {
   const auto vertices = network_.straight().vertices();
   const Point s = vertices[arc.start], m = vertices[arc.middle], e = vertices[arc.end];
   const auto circle = model::arc_circle<quad>(s, m, e);
@@ -78,7 +79,7 @@ Course Bodies::course_of(const CurveNetwork::Arc& arc) const {
     const double chord = std::hypot(e.x - s.x, e.y - s.y);
     c.flat = chord / 2 * std::tan(c.angle / 4) <= 16 * enlargement();
     // Caps and joins look at directions, too.
-    if (!is_round(options_)) c.flat = c.flat && c.angle * effective_radius_ <= excess_ / 4;
+    if (!is_round(options_)) c.flat = c.flat && c.angle * radius <= excess_ / 4;
   }
   if (arc.start != arc.end && turn == 0) c.flat = true;
   if (c.flat) return c;
@@ -94,16 +95,16 @@ Course Bodies::course_of(const CurveNetwork::Arc& arc) const {
 }
 
 /// The disks about both ends cover all that is within R: nothing of an arc so low shows.
-bool Bodies::ends_cover(const Course& c) const {
+bool Bodies::ends_cover(const Course& c, double radius) const {
   if (c.angle > M_PI) return false;
   const double r = double(c.radius), s = std::sin(c.angle / 4), height = 2 * r * s * s;
-  return height * (r + effective_radius_) <= excess_ / 2 * effective_radius_;
+  return height * (r + radius) <= excess_ / 2 * radius;
 }
 
 bool Bodies::ends_cover(Index segment) const {
   const auto s = network_.straight().segments()[segment];
   const Q d = at(s.b) - at(s.a);
-  return double(dot(d, d)) <= 4 * excess_ * effective_radius_;
+  return double(dot(d, d)) <= 4 * excess_ * effective(radii_.of_segment(segment));
 }
 
 std::uint8_t Bodies::parts_of(const Course& c) const {
@@ -123,7 +124,7 @@ void Bodies::list_round() {
       const Course& c = courses_[a];
       if (c.flat) {
         specs_.push_back({Kind::chord, 0, 1, Index(a)});
-      } else if (!ends_cover(c)) {
+      } else if (!ends_cover(c, effective(radii_.of_arc(Index(a))))) {
         const auto parts = parts_of(c);
         for (std::uint8_t k = 0; k < parts; ++k) specs_.push_back({Kind::sector, k, parts, Index(a)});
       }
@@ -147,7 +148,7 @@ void Bodies::list_shaped() {
         continue;
       }
       const auto parts = parts_of(c);
-      const bool goes_beyond = effective_radius_ - c.radius > resolution_ / 4;
+      const bool goes_beyond = effective(radii_.of_arc(Index(a))) - c.radius > resolution_ / 4;
       for (std::uint8_t k = 0; k < parts; ++k) {
         specs_.push_back({Kind::sector, k, parts, Index(a)});
         if (goes_beyond) specs_.push_back({Kind::beyond, k, parts, Index(a)});
@@ -329,8 +330,43 @@ void Bodies::build_end(const Spec& spec, quad r, Q shift, bool move, Body<quad>&
   out.add(line(v - r * n - back * d, v + r * n - back * d, inside));
 }
 
-Body<quad> Bodies::build(Index body, quad radius, bool move) const {
+double Bodies::radius_of(const Spec& spec) const {
+  switch (spec.kind) {
+    case Kind::disk:
+      return radii_.of_vertex(spec.index);
+    case Kind::strip:
+      return radii_.of_segment(spec.index);
+    case Kind::chord:
+    case Kind::sector:
+    case Kind::beyond:
+      return radii_.of_arc(spec.index);
+    default:
+      return radii_.most();
+  }
+}
+
+double Bodies::radius_of(const Key& key) const {
+  switch (key.kind) {
+    case Key::Kind::side:
+      return radii_.of_segment(key.index >> 1);
+    case Key::Kind::chord:
+      return radii_.of_arc(key.index >> 1);
+    case Key::Kind::circle:
+      return radii_.of_vertex(key.index);
+    case Key::Kind::outer:
+    case Key::Kind::inner:
+    case Key::Kind::beyond:
+      return radii_.of_arc(key.index);
+    default:
+      return radii_.most();
+  }
+}
+
+/// In quadruple precision.
+Body<quad> Bodies::build(Index body, bool move) const {
   const Spec& spec = specs_[body];
+  const double given = radius_of(spec);
+  const quad radius = move ? effective(given) : given;
   const std::uint64_t h = (seed_ << 40 | std::uint64_t{body} << 3) * 0x9e3779b97f4a7c15ULL;
   const double scale = move ? move_ : 0;
   const Q shift{scale * fraction(h + 1), scale * fraction(h + 2)};
@@ -358,7 +394,7 @@ Body<quad> Bodies::build(Index body, quad radius, bool move) const {
     case Kind::sector: {
       const quad r = courses_[spec.index].radius;
       // A hole that is hardly one is filled; the same in both instances.
-      const bool hole = r - effective_radius_ > resolution_ / 4;
+      const bool hole = r - effective(given) > resolution_ / 4;
       build_sector(spec, r + radius + more, hole ? r - radius + less : 0, shift, move, out);
       break;
     }

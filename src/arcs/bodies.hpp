@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "arcs/radii.hpp"
 #include "kernel/box_tree.hpp"
 #include "krepl/curve_network.hpp"
 #include "krepl/shape.hpp"
@@ -83,15 +84,15 @@ struct Course {
 /// larger by that, or walls at joints are that much farther out. The sectors of one arc overlap.
 class Bodies {
  public:
-  /// `seed` chooses the instance.
-  Bodies(const CurveNetwork& network, const ShapeOptions& options, double nominal_radius, double effective_radius,
+  /// `enlargement`: of all radii. `seed` chooses the instance. With other caps and joins than round there is one radius.
+  Bodies(const CurveNetwork& network, const ShapeOptions& options, const Radii& radii, double enlargement,
          double resolution, std::uint64_t seed);
 
   std::size_t count() const { return specs_.size(); }
   /// In quadruple precision at the enlarged radius, moved.
-  Body<quad> moved(Index body) const { return build(body, effective_radius_, true); }
+  Body<quad> moved(Index body) const { return build(body, true); }
   /// At the radius as it was given, not moved: what coordinates are evaluated by.
-  Body<quad> nominal(Index body) const { return build(body, nominal_radius_, false); }
+  Body<quad> nominal(Index body) const { return build(body, false); }
   /// Holds the moved body.
   kernel::Box box(Index body) const;
   /// True if radii are too large for double precision to tell anything.
@@ -103,8 +104,11 @@ class Bodies {
   bool go_beyond_centres() const {
     return std::any_of(specs_.begin(), specs_.end(), [](const Spec& s) { return s.kind == Kind::beyond; });
   }
-  double nominal_radius() const { return nominal_radius_; }
-  double enlargement() const { return effective_radius_ - nominal_radius_; }
+  /// As it was given, of what this is a copy of.
+  double radius_of(const Key& key) const;
+  /// As it was given; of several the largest.
+  double largest_radius() const { return radii_.most(); }
+  double enlargement() const { return enlargement_; }
   /// The largest coordinate of any body.
   double scale() const { return scale_; }
   const CurveNetwork& network() const { return network_; }
@@ -131,7 +135,9 @@ class Bodies {
     Vector<quad> in, out;  // directions of travel
     Key before, after;     // sides on the right of these
   };
-  Body<quad> build(Index body, quad radius, bool move) const;
+  Body<quad> build(Index body, bool move) const;
+  double radius_of(const Spec& spec) const;
+  double effective(double radius) const { return radius + enlargement_; }
   void build_strip(Index a, Index b, Key key, Key end, quad width, Vector<quad> shift, bool move, Body<quad>& out) const;
   void build_sector(const Spec& spec, quad outer, quad inner, Vector<quad> shift, bool move, Body<quad>& out) const;
   void build_bend(const Spec& spec, quad radius, Vector<quad> shift, bool move, Body<quad>& out) const;
@@ -143,14 +149,15 @@ class Bodies {
   void add_squares(Index vertex, const std::vector<Arm>& arms);
   quad reach(bool move) const;
   Vector<quad> at(Index vertex) const;
-  Course course_of(const CurveNetwork::Arc& arc) const;
-  bool ends_cover(const Course& course) const;
+  Course course_of(const CurveNetwork::Arc& arc, double radius) const;
+  bool ends_cover(const Course& course, double radius) const;
   bool ends_cover(Index segment) const;
   std::uint8_t parts_of(const Course& course) const;
 
   const ShapeOptions options_;
   const CurveNetwork& network_;
-  double nominal_radius_, effective_radius_, resolution_, scale_, vast_, move_, excess_;
+  const Radii& radii_;
+  double enlargement_, resolution_, scale_, vast_, move_, excess_;
   std::uint64_t seed_;
   std::vector<Course> courses_;
   std::vector<Spec> specs_;

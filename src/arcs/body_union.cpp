@@ -142,7 +142,7 @@ class Contraction {
 };
 
 Zone::Piece as_piece(const Bodies& bodies, const Item& item, Q start, Q end) {
-  Zone::Piece p{Zone::Kind::segment, rounded(start), rounded(end), {}, item.key.index, false, bodies.nominal_radius()};
+  Zone::Piece p{Zone::Kind::segment, rounded(start), rounded(end), {}, item.key.index, false, bodies.radius_of(item.key)};
   switch (item.key.kind) {
     case Key::Kind::side:
       p.source = item.key.index >> 1;
@@ -162,7 +162,7 @@ Zone::Piece as_piece(const Bodies& bodies, const Item& item, Q start, Q end) {
     case Key::Kind::inner:
     case Key::Kind::beyond: {
       const Course& c = bodies.course(item.key.index);
-      const quad r = bodies.nominal_radius();
+      const quad r = bodies.radius_of(item.key);
       p.kind = Zone::Kind::arc;
       p.center = rounded(c.centre);
       p.clockwise = item.key.kind == Key::Kind::inner;

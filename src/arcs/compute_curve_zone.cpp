@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "arcs/outline.hpp"
 #include "arcs/polygon_border.hpp"
 #include "krepl/curve_zone.hpp"
@@ -14,7 +16,9 @@ struct Curves {
   static const krepl::Network& straight(const Network& network) { return network.straight(); }
   static constexpr auto border_network = arcs::border_network;
   static constexpr auto union_border = arcs::union_border;
-  static constexpr auto outline = arcs::outline;
+  static Result<shape::Outline> outline(const Network& network, const ShapeOptions& options, const Context& context) {
+    return arcs::outline(network, options, context);
+  }
   static constexpr auto rings_by_polygons = arcs::rings_by_polygons;
 };
 
@@ -30,6 +34,19 @@ Result<Zone> compute_zone(std::shared_ptr<const CurveNetwork> network, const Zon
   ShapeOptions round;
   round.distance = options.radius;
   return shape::two_sided<arcs::Curves>(std::move(network), round, context);
+}
+
+Result<Zone> compute_zone(std::shared_ptr<const CurveNetwork> network, std::span<const double> part_radii,
+                          const Context& context) {
+  const Network& straight = network->straight();
+  if (Status checked = zone::check_part_radii(straight, part_radii); !checked) return checked.error();
+  const auto [least, most] = std::minmax_element(part_radii.begin(), part_radii.end());
+  if (*least == *most) return compute_zone(std::move(network), ZoneOptions{*most}, context);
+  Result<shape::Outline> found = arcs::outline(*network, part_radii, context);
+  if (!found) return found.error();
+  zone::ShapedRings rings = std::move(found->rings);
+  if (straight.has_polygons()) rings = arcs::rings_by_polygons(*network, rings, straight.origin(), false);
+  return ZoneAssembly::finish(std::move(network), *most, std::move(rings), found->slack, found->counters, context, *least);
 }
 
 Result<Zone> compute_shape(std::shared_ptr<const CurveNetwork> network, const ShapeOptions& o, const Context& context) {

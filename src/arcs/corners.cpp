@@ -64,7 +64,7 @@ Meeting circles(const Border<quad>& a, const Border<quad>& b) {
 double Corners::limit(const Border<quad>& a, const Border<quad>& b, double sine) const {
   const double g = bodies_.enlargement();
   const double radius =
-      std::min(bodies_.scale(), std::max({double(a.radius), double(b.radius), bodies_.nominal_radius()}));
+      std::min(bodies_.scale(), std::max({double(a.radius), double(b.radius), bodies_.largest_radius()}));
   return std::min(8 * g / std::max(sine, 0x1p-30), 8 * std::sqrt(g * radius));
 }
 

@@ -140,9 +140,11 @@ void Obstacle::add_arcs(Real y, Real widest, std::vector<Interval>& out) const {
 /// The chord's crossing, and one more where the place is between chord and arc.
 bool Obstacle::Side::crosses(Vec p) const {
   const Real turn = cross(b - a, p - a);
-  const bool chord = (a.y <= p.y) != (b.y <= p.y) && (b.y > a.y ? turn > 0 : turn < 0);
+  // On the chord: to the right in the plane, and above, as the crossings have it.
+  const bool right = turn < 0 || (turn == 0 && (a.y != b.y ? b.y > a.y : b.x < a.x));
+  const bool chord = (a.y <= p.y) != (b.y <= p.y) && right != (b.y > a.y);
   if (!arc) return chord;
-  const bool beyond = arc->full() || (turn < 0) == arc->left;
+  const bool beyond = arc->full() || right == arc->left;
   return chord != (beyond && arc->off_circle(p) < 0);
 }
 

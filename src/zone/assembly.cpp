@@ -25,6 +25,7 @@ Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, const 
   const auto nesting = zone::nest(instance, rings, context);
   if (!nesting) return nesting.error();
   Zone zone = assemble(std::move(network), instance.nominal_radius(), std::move(rings), *nesting, counters, context);
+  if (varied) zone.least_radius_ = varied->least;
   zone.varied_ = std::move(varied);
   return zone;
 }
@@ -35,7 +36,7 @@ Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, double
   const auto nesting = zone::nest(rings, std::abs(distance), slack, context);
   if (!nesting) return nesting.error();
   Zone zone;
-  zone.radius_ = std::abs(distance);
+  zone.radius_ = zone.least_radius_ = std::abs(distance);
   zone.inward_ = distance < 0;
   zone.network_ = std::move(network);
   for (Zone::Piece& p : rings.piece) {
@@ -52,9 +53,11 @@ Result<Zone> ZoneAssembly::finish(std::shared_ptr<const Network> network, double
 }
 
 Result<Zone> ZoneAssembly::finish(std::shared_ptr<const CurveNetwork> curves, double distance, zone::ShapedRings rings,
-                                  double slack, const ZoneCounters& counters, const Context& context) {
+                                  double slack, const ZoneCounters& counters, const Context& context, double least) {
   auto zone = finish(curves->share_straight(), distance, std::move(rings), slack, counters, context);
-  if (zone.ok()) zone->curves_ = std::move(curves);
+  if (!zone) return zone;
+  zone->curves_ = std::move(curves);
+  if (least > 0) zone->least_radius_ = least;
   return zone;
 }
 
@@ -129,7 +132,7 @@ Result<Zone> zone_band(const Zone& inner, const Zone& outer, const Context& cont
 Zone ZoneAssembly::assemble(std::shared_ptr<const Network> network, double radius, zone::Rings rings,
                             const zone::Nesting& nesting, const ZoneCounters& counters, const Context& context) {
   Zone zone;
-  zone.radius_ = radius;
+  zone.radius_ = zone.least_radius_ = radius;
   zone.network_ = std::move(network);
   zone.vertex_ = std::move(rings.vertex);
   zone.element_ = std::move(rings.element);

@@ -21,9 +21,9 @@ class ZoneAssembly {
   /// shrunk; pieces that have no radius get it; opposite boundaries are no nearer to each other than `slack`.
   static Result<Zone> finish(std::shared_ptr<const Network> network, double distance, zone::ShapedRings rings,
                              double slack, const ZoneCounters& counters, const Context& context);
-  /// The same of lines with arcs.
+  /// The same of lines with arcs; `least`: the smallest radius, where there are several.
   static Result<Zone> finish(std::shared_ptr<const CurveNetwork> curves, double distance, zone::ShapedRings rings,
-                             double slack, const ZoneCounters& counters, const Context& context);
+                             double slack, const ZoneCounters& counters, const Context& context, double least = 0);
 
   /// zone_band.
   static Result<Zone> band(const Zone& inner, const Zone& outer, const Context& context);

@@ -69,15 +69,7 @@ Result<Zone> compute_zone(std::shared_ptr<const Network> network, const ZoneOpti
 
 Result<Zone> compute_zone(std::shared_ptr<const Network> network, std::span<const double> part_radii,
                           const Context& context) {
-  if (part_radii.size() != network->part_count()) {
-    return Error{ErrorCode::usage,
-                 "there are " + std::to_string(part_radii.size()) + " radii for " + std::to_string(network->part_count()) +
-                     " parts",
-                 "", "give one radius for each part"};
-  }
-  for (const double radius : part_radii) {  // comparisons would overlook one that is not a number
-    if (!(radius > 0)) return zone::precision_for(*network, radius).error();
-  }
+  if (Status checked = zone::check_part_radii(*network, part_radii); !checked) return checked.error();
   const auto [least, most] = std::minmax_element(part_radii.begin(), part_radii.end());
   if (*least == *most) return compute_zone(std::move(network), ZoneOptions{*most}, context);
   const auto precision = zone::precision_for(*network, *least, *most);

@@ -48,4 +48,17 @@ Result<Precision> precision_for(double extent, double resolution, double least, 
   return Precision{radius + enlargement, std::max(4 * u, std::min(64 * enlargement, most))};
 }
 
+Status check_part_radii(const Network& network, std::span<const double> part_radii) {
+  if (part_radii.size() != network.part_count()) {
+    return Error{ErrorCode::usage,
+                 "there are " + std::to_string(part_radii.size()) + " radii for " + std::to_string(network.part_count()) +
+                     " parts",
+                 "", "give one radius for each part"};
+  }
+  for (const double radius : part_radii) {  // comparisons would overlook one that is not a number
+    if (!(radius > 0)) return precision_for(network, radius).error();
+  }
+  return std::monostate{};
+}
+
 }  // namespace krepl::zone

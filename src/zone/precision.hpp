@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "krepl/error.hpp"
 #include "krepl/network.hpp"
 
@@ -24,5 +26,8 @@ Result<Precision> precision_for(const Network& network, double radius);
 Result<Precision> precision_for(const Network& network, double least, double most);
 /// The same where the extent is more than that of the network's vertices.
 Result<Precision> precision_for(double extent, double resolution, double least, double most);
+
+/// A radius for each part of the network, all of them positive: else as above, or ErrorCode::usage for another number of them.
+Status check_part_radii(const Network& network, std::span<const double> part_radii);
 
 }  // namespace krepl::zone

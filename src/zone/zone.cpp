@@ -30,8 +30,6 @@ double signed_angle(const Zone::Piece& arc) {
 
 double Zone::scale() const { return std::max(radius_, curves_ ? curves_->extent() : network_->extent()); }
 
-double Zone::least_radius() const { return varied_ ? varied_->least : radius_; }
-
 Zone::Piece Zone::local_piece(std::uint32_t e) const {
   if (!shaped_.empty()) return shaped_[e];
   const auto ring = std::upper_bound(ring_begin_.begin(), ring_begin_.end(), e);

@@ -42,6 +42,20 @@ TEST_P(CurveZones, AreWhatBruteForceSays) {
   }
 }
 
+TEST_P(CurveZones, OfPartsWithRadiiOfTheirOwnAreWhatBruteForceSays) {
+  const auto family = CurveFamily(GetParam());
+  std::mt19937_64 random(seed() + 1000 + std::uint64_t(family));
+  for (int k = 0; k < int(40 * effort()); ++k) {
+    const ZoneCase c = varied(random_curves(family, random));
+    SCOPED_TRACE(text(c));
+    const auto zone = curve_zone_of(c);
+    if (!zone && zone.error().code == ErrorCode::usage) continue;
+    ASSERT_TRUE(zone.ok()) << k << ": " << zone.error().text();
+    const auto fault = fault_in(*zone, c);
+    EXPECT_FALSE(fault.has_value()) << k << ": " << *fault;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, CurveZones, testing::Range(0, int(CurveFamily::count)),
                          [](const auto& info) { return name(CurveFamily(info.param)); });
 
@@ -70,6 +84,25 @@ TEST(CurveZone, OfARadiusThatIsNoneIsRefused) {
     ASSERT_FALSE(zone.ok()) << radius;
     EXPECT_EQ(zone.error().code, ErrorCode::usage) << radius;
   }
+}
+
+/// A ring of 2 about a circle of 5, and a disk of 4 that reaches into it: the circle's part is a ring of r + 2 and r - 2.
+TEST(CurveZone, OfTwoRadiiHasArcsOfBoth) {
+  ZoneCase c = case_of({circle(0, 0, 5), point(20, 0)}, 1);
+  c.parts[0].radius = 2, c.parts[1].radius = 4;
+  const Zone zone = zone_of_curves(c);
+  EXPECT_EQ(counts(zone), (RingCounts{2, 1}));
+  EXPECT_EQ(zone.radius(), 4);
+  EXPECT_EQ(zone.least_radius(), 2);
+  EXPECT_NEAR(zone.area(), M_PI * (49 - 9 + 16), 1e-11);
+  EXPECT_EQ(fault_in(zone, c), std::nullopt);
+  c.parts[1].vertices[0].x = 8;
+  const Zone one = zone_of_curves(c);
+  EXPECT_EQ(one.polygon_count(), 1u);
+  EXPECT_EQ(fault_in(one, c), std::nullopt);
+  const auto network = std::make_shared<const CurveNetwork>(*curve_network_of(c));
+  for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) EXPECT_FALSE(compute_zone(network, std::vector<double>{1, bad}).ok()) << bad;
+  EXPECT_FALSE(compute_zone(network, std::vector<double>{1}).ok());
 }
 
 TEST(CurveZone, OfAStadium) {

@@ -80,6 +80,13 @@ double largest_radius(const ZoneCase& c) {
   return largest > 0 ? largest : c.radius;
 }
 
+ZoneCase varied(ZoneCase c) {
+  static constexpr double factors[] = {1, 2, 0.5, 1, 3, 1.5};
+  for (std::size_t i = 0; i < c.parts.size(); ++i)
+    c.parts[i].radius = c.radius * factors[(c.parts[i].ring ? std::size_t(c.parts[i].feature) : i) % std::size(factors)];
+  return c;
+}
+
 InputPart line(std::vector<Point> vertices) { return {std::move(vertices), false, -1, 0, {}}; }
 InputPart curve(std::vector<Point> vertices, std::vector<std::uint32_t> middles) {
   return {std::move(vertices), false, -1, 0, std::move(middles)};
@@ -104,7 +111,13 @@ Result<CurveNetwork> curve_network_of(const ZoneCase& c, const Context& context)
 Result<Zone> curve_zone_of(const ZoneCase& c, const Context& context) {
   auto network = curve_network_of(c, context);
   if (!network) return network.error();
-  return compute_zone(std::make_shared<const CurveNetwork>(std::move(*network)), ZoneOptions{c.radius}, context);
+  auto shared = std::make_shared<const CurveNetwork>(std::move(*network));
+  std::vector<double> radii;
+  for (const InputPart& part : c.parts) {
+    if (part.radius > 0) radii.push_back(part.radius);
+  }
+  return radii.empty() ? compute_zone(std::move(shared), ZoneOptions{c.radius}, context)
+                       : compute_zone(std::move(shared), radii, context);
 }
 
 InputPart ring(std::vector<Point> vertices, std::int64_t feature) { return {std::move(vertices), true, feature, 0, {}}; }

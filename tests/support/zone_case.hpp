@@ -23,6 +23,8 @@ struct ZoneCase {
 
 /// The case's radius, or the largest of its parts'.
 double largest_radius(const ZoneCase& c);
+/// With radii from a short list, so that many are equal and many sums and differences are distances that occur.
+ZoneCase varied(ZoneCase c);
 
 /// The parts as one GEOMETRYCOLLECTION with 17 digits, and the radius: enough to repeat the case.
 std::string text(const ZoneCase& c);

@@ -123,14 +123,6 @@ TEST(VariedRadii, BadRadiiAreRefused) {
   EXPECT_FALSE(compute_zone(network, std::vector<double>{1}).ok());
 }
 
-/// Radii from a short list, so that many are equal and many sums and differences are distances that occur.
-ZoneCase varied(ZoneCase c) {
-  static constexpr double factors[] = {1, 2, 0.5, 1, 3, 1.5};
-  for (std::size_t i = 0; i < c.parts.size(); ++i)
-    c.parts[i].radius = c.radius * factors[(c.parts[i].ring ? std::size_t(c.parts[i].feature) : i) % std::size(factors)];
-  return c;
-}
-
 class VariedRadiiOfAllFamilies : public PropertyTest {};
 
 TEST_P(VariedRadiiOfAllFamilies, PassTheVerifier) {
