@@ -1,4 +1,4 @@
-"""Arcs of the input: kept where zones have a single radius and both sides, else refused, or chords within --arc-error in their place."""
+"""Arcs of the input: kept where zones have both sides and are not shared out, else refused, or chords within --arc-error in their place."""
 import math
 import re
 
@@ -191,6 +191,7 @@ class Arcs(support.CliTest):
                 (("--per-feature", "--radius-field", "w"), (half(2), stadium(1), line(3))),
                 (("--per-feature", "--radius", "2*w+1"), (half(5), stadium(3), line(7))),
                 (("--per-feature", "--radius", "1,3"), (half(1), half(3), stadium(1), stadium(3), line(1), line(3))),
+                (("--dissolve-by", "name", "--radius-field", "w"), (half(2) + line(3), stadium(1))),
                 (("--per-feature", "--radius", R, "--cap", "flat", "--join", "bevel"), (20 * PI * R, stadium(R), 20 * R))):
             with self.subTest(options=options):
                 done = self.succeed("buffer", "in.gpkg", "out.gpkg", *options)
@@ -202,13 +203,18 @@ class Arcs(support.CliTest):
                 for area, expected in zip(found, areas):
                     self.assertAlmostEqual(area, expected, delta=1e-9 * expected)
                 self.assertGreater(told.count("CIRCULARSTRING"), len(areas))
-        # What shares places out or has several radii in one zone takes chords.
-        for options in (("--owner", "nearest", "--radius", R), ("--dissolve-by", "name", "--radius-field", "w"), ("--radius-field", "w")):
-            with self.subTest(options=options):
-                self.fail_with(1, "in.gpkg: arcs of the input cannot stay arcs here, feature 1; give --arc-error LENGTH for chords in "
-                               "their place that deviate by no more", "buffer", "in.gpkg", "none.gpkg", *options, output="none.gpkg")
-                self.succeed("buffer", "in.gpkg", "out.gpkg", *options, "--arc-error", ERROR)
-                self.succeed("verify", "out.gpkg", "--against", "in.gpkg", *options, "--arc-error", ERROR)
+        # One zone of several radii: the half circle of 2 and the stadium of 1 overlap.
+        self.succeed("buffer", "in.gpkg", "out.wkt", "--radius-field", "w")
+        self.succeed("verify", "out.wkt", "--against", "in.gpkg", "--radius-field", "w")
+        zone = support.measure(self.text("out.wkt"))
+        self.assertEqual(zone.polygons, 2)
+        self.assertLess(zone.area, half(2) + stadium(1) + line(3))
+        # What shares places out takes chords.
+        options = ("--owner", "nearest", "--radius", R)
+        self.fail_with(1, "in.gpkg: arcs of the input cannot stay arcs here, feature 1; give --arc-error LENGTH for chords in "
+                       "their place that deviate by no more", "buffer", "in.gpkg", "none.gpkg", *options, output="none.gpkg")
+        self.succeed("buffer", "in.gpkg", "out.gpkg", *options, "--arc-error", ERROR)
+        self.succeed("verify", "out.gpkg", "--against", "in.gpkg", *options, "--arc-error", ERROR)
 
     def test_no_projection(self):
         self.write("in.wkt", "SRID=25832;" + HALF + "\n")
