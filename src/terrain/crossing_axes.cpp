@@ -7,6 +7,51 @@ namespace krepl::terrain {
 
 using FeatureKind = Terrain::FeatureKind;
 
+/// Heights at the corners, between which an edge's patch is at least linear: its own, or beside a wall those of the axis.
+template <class Real>
+std::array<Real, 4> Envelope<Real>::least_heights(Index edge, const BoxFrame& frame) const {
+  const std::array<Point, 4> corner = frame.box.corners();
+  std::array<Real, 4> lowest;
+  for (int i = 0; i < 4; ++i) lowest[i] = patches_.extended_height(edge, corner[i]);
+  if (!std::all_of(lowest.begin(), lowest.end(), [](Real h) { return h > below_everything; })) {
+    for (int i = 0; i < 4; ++i) lowest[i] = axis_height(edge, corner[i]);
+  }
+  return lowest;
+}
+
+/// At least the greatest distance by which a place of an edge's patch over the box lies within the half-space, times its normal's
+/// length.
+template <class Real>
+Real Envelope<Real>::most_beyond(Index edge, const HalfSpace& part, const BoxFrame& frame) const {
+  const std::array<Point, 4> corner = frame.box.corners();
+  const std::array<Real, 4> bound = part.normal.z > 0 ? support(edge, frame).at_corners(frame) : least_heights(edge, frame);
+  Real most = -endless;
+  for (int i = 0; i < 4; ++i) {
+    most = std::max(most, part.normal.x * (corner[i].x - part.at.x) + part.normal.y * (corner[i].y - part.at.y) + part.normal.z * (bound[i] - part.z));
+  }
+  return most;
+}
+
+/// As below, for two edges out of one vertex, with unit directions d and e away from there: a ball touches the first one where
+/// x e >= 0, at the distance R from its axis, and is outside of the second one's cylinder or ball if x d <= x e. Nothing if the
+/// edges have no vertex in common, or the second one may end in the box elsewhere.
+template <class Real>
+std::optional<typename Envelope<Real>::HalfSpace> Envelope<Real>::outside_at_vertex(Index first, Index second, const BoxFrame& frame) const {
+  const Patch &f = patches_[first], &g = patches_[second];
+  for (const bool f_end : {false, true}) {
+    for (const bool g_end : {false, true}) {
+      const Point at = f_end ? f.end() : f.at, other = g_end ? g.end() : g.at;
+      const Real z = f_end ? f.end_z() : f.z, other_z = g_end ? g.end_z() : g.z;
+      if (std::max({absolute(at.x - other.x), absolute(at.y - other.y), absolute(z - other_z)}) > noise_) continue;
+      const Real e = f_end ? -f.flat : f.flat, d = g_end ? -g.flat : g.flat;
+      const HalfSpace before{at, z, {d * g.gx, d * g.gy, d * g.m}};
+      if (!(most_beyond(first, before, frame) <= g.length * g.q)) return std::nullopt;
+      return HalfSpace{at, z, {e * f.gx - d * g.gx, e * f.gy - d * g.gy, e * f.m - d * g.m}};
+    }
+  }
+  return std::nullopt;
+}
+
 /// Half-spaces, none to two, in each of which lies all that is outside of the second edge's cylinder of what a ball over the box
 /// touches with the first edge. Two cylinders whose axes cross meet in two planes through the crossing: at x from there, with
 /// unit directions d and e of the axes, the squares of the distances from these differ by (x (d + e)) (x (d - e)), and the sign
@@ -15,6 +60,10 @@ template <class Real>
 std::size_t Envelope<Real>::outside_of_crossing(Index first, Index second, const BoxFrame& frame, HalfSpace out[2]) const {
   const Patch &f = patches_[first], &g = patches_[second];
   if (first == second || f.kind != FeatureKind::edge || g.kind != FeatureKind::edge) return 0;
+  if (const std::optional<HalfSpace> part = outside_at_vertex(first, second, frame)) {
+    out[0] = *part;
+    return 1;
+  }
   constexpr double least_angle = 0x1p-20;
   constexpr double least_factor = is_fine<Real> ? 0x1p-30 : 0x1p-8;  // axes that miss each other by noise move a plane by as much more
   const Real sine = f.gx * g.gy - f.gy * g.gx, turn = f.gx * g.gx + f.gy * g.gy;
@@ -33,12 +82,7 @@ std::size_t Envelope<Real>::outside_of_crossing(Index first, Index second, const
     if ((b.source == BoundSource::start || b.source == BoundSource::end) && !is_within(b, frame)) return 0;
   }
   const std::array<Point, 4> corner = frame.box.corners();
-  // Heights are at least linear between the corners, or else, beside a wall, those of the axis.
-  std::array<Real, 4> lowest;
-  for (int i = 0; i < 4; ++i) lowest[i] = patches_.extended_height(first, corner[i]);
-  if (!std::all_of(lowest.begin(), lowest.end(), [](Real h) { return h > below_everything; })) {
-    for (int i = 0; i < 4; ++i) lowest[i] = axis_height(first, corner[i]);
-  }
+  const std::array<Real, 4> lowest = least_heights(first, frame);
   const std::array<Real, 4> highest = support(first, frame).at_corners(frame);
   std::size_t count = 0;
   for (const int sign : {1, -1}) {

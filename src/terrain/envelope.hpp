@@ -208,6 +208,9 @@ class Envelope {
     Real z;
     Vector normal;
   };
+  std::array<Real, 4> least_heights(Index edge, const BoxFrame& frame) const;
+  Real most_beyond(Index edge, const HalfSpace& part, const BoxFrame& frame) const;
+  std::optional<HalfSpace> outside_at_vertex(Index first, Index second, const BoxFrame& frame) const;
   std::size_t outside_of_crossing(Index first, Index second, const BoxFrame& frame, HalfSpace out[2]) const;
   std::size_t contacts(Index patch, const Box& box, Vector* out) const;
   std::size_t normals(Index patch, const Box& box, Vector* out) const;

@@ -207,6 +207,7 @@ class Envelope<Real>::Cover {
     HalfSpace part[2];
     const std::size_t count = envelope_.outside_of_crossing(c, other, frame_, part);
     return std::any_of(part, part + count, [&](const HalfSpace& h) {
+      if (envelope_.most_beyond(c, h, frame_) < -envelope_.noise_) return true;
       return h.normal.z < -least_normal && hides_below(c, h.at, h.z, {-h.normal.x / h.normal.z, -h.normal.y / h.normal.z});
     });
   }
