@@ -191,9 +191,10 @@ void Union::set_ends(std::vector<Arc>& arcs) {
     }
   }
   std::stable_sort(ends.begin(), ends.end(), [](const End& e, const End& f) { return e.open < f.open; });
-  for (const auto& [end_of, side, length] : ends) {
-    Arc& arc = *end_of;
-    if (length <= tolerance_.weld / 16) {
+  for (const End& end : ends) {
+    Arc& arc = *end.arc;
+    const int side = end.side;
+    if (end.open <= tolerance_.weld / 16) {
       arc.vertex[side] = map_.vertex_at(place(arc, side));
       continue;
     }

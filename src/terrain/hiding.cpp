@@ -220,11 +220,11 @@ class Envelope<Real>::Cover {
       HalfSpace part[2];
       const std::size_t count = envelope_.outside_of_crossing(c, body_[k].label, frame_, part);
       for (std::size_t i = 0; i < count; ++i) {
-        const auto& [at, z, normal] = part[i];
-        const Real length = norm(normal.x, normal.y);
-        if (!(absolute(normal.z) <= Precision<Real>::corner && length > least_normal)) continue;
+        const HalfSpace& h = part[i];
+        const Real length = norm(h.normal.x, h.normal.y);
+        if (!(absolute(h.normal.z) <= Precision<Real>::corner && length > least_normal)) continue;
         const auto is_inside = [&](Point p) {
-          const Real beyond = (normal.x * (p.x - at.x) + normal.y * (p.y - at.y)) / length;
+          const Real beyond = (h.normal.x * (p.x - h.at.x) + h.normal.y * (p.y - h.at.y)) / length;
           return envelope_.outside(wall, p) + beyond <= envelope_.tolerance_ / 4;
         };
         if (std::all_of(corner_.begin(), corner_.end(), is_inside)) return true;
