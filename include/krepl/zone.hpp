@@ -118,7 +118,7 @@ class Zone {
   bool inward_ = false;
   std::shared_ptr<const Network> network_;
   std::shared_ptr<const CurveNetwork> curves_;
-  std::shared_ptr<const zone::VariedSites> varied_;  // none where there is one radius
+  std::shared_ptr<const zone::VariedSites> varied_;  // none where there is one radius, or pieces tell theirs
   std::vector<Point> vertex_;           // relative to the network's origin; vertex e starts piece e
   std::vector<std::uint32_t> element_;  // per piece: the boundary element it lies on; or, of other shapes,
   std::vector<Piece> shaped_;           // the pieces themselves, relative to the network's origin

@@ -7,24 +7,29 @@ namespace krepl::terrain {
 
 using FeatureKind = Terrain::FeatureKind;
 
-/// Heights at the corners, between which an edge's patch is at least linear: its own, or beside a wall those of the axis.
-template <class Real>
-std::array<Real, 4> Envelope<Real>::least_heights(Index edge, const BoxFrame& frame) const {
-  const std::array<Point, 4> corner = frame.box.corners();
-  std::array<Real, 4> lowest;
-  for (int i = 0; i < 4; ++i) lowest[i] = patches_.extended_height(edge, corner[i]);
-  if (!std::all_of(lowest.begin(), lowest.end(), [](Real h) { return h > below_everything; })) {
-    for (int i = 0; i < 4; ++i) lowest[i] = axis_height(edge, corner[i]);
-  }
-  return lowest;
+namespace {
+
+template <class Vector>
+Vector turned(const Vector& v) {
+  return {-v.x, -v.y, -v.z};
 }
+
+}  // namespace
 
 /// At least the greatest distance by which a place of an edge's patch over the box lies within the half-space, times its normal's
 /// length.
 template <class Real>
 Real Envelope<Real>::most_beyond(Index edge, const HalfSpace& part, const BoxFrame& frame) const {
   const std::array<Point, 4> corner = frame.box.corners();
-  const std::array<Real, 4> bound = part.normal.z > 0 ? support(edge, frame).at_corners(frame) : least_heights(edge, frame);
+  std::array<Real, 4> bound;
+  if (part.normal.z > 0) {
+    bound = support(edge, frame).at_corners(frame);
+  } else {  // a patch is at least linear between the corners, or else, beside a wall, as high as its axis
+    for (int i = 0; i < 4; ++i) bound[i] = patches_.extended_height(edge, corner[i]);
+    if (!std::all_of(bound.begin(), bound.end(), [](Real h) { return h > below_everything; })) {
+      for (int i = 0; i < 4; ++i) bound[i] = axis_height(edge, corner[i]);
+    }
+  }
   Real most = -endless;
   for (int i = 0; i < 4; ++i) {
     most = std::max(most, part.normal.x * (corner[i].x - part.at.x) + part.normal.y * (corner[i].y - part.at.y) + part.normal.z * (bound[i] - part.z));
@@ -43,10 +48,9 @@ std::optional<typename Envelope<Real>::HalfSpace> Envelope<Real>::outside_at_ver
       const Point at = f_end ? f.end() : f.at, other = g_end ? g.end() : g.at;
       const Real z = f_end ? f.end_z() : f.z, other_z = g_end ? g.end_z() : g.z;
       if (std::max({absolute(at.x - other.x), absolute(at.y - other.y), absolute(z - other_z)}) > noise_) continue;
-      const Real e = f_end ? -f.flat : f.flat, d = g_end ? -g.flat : g.flat;
-      const HalfSpace before{at, z, {d * g.gx, d * g.gy, d * g.m}};
-      if (!(most_beyond(first, before, frame) <= g.length * g.q)) return std::nullopt;
-      return HalfSpace{at, z, {e * f.gx - d * g.gx, e * f.gy - d * g.gy, e * f.m - d * g.m}};
+      const Vector e = f_end ? turned(direction(first)) : direction(first), d = g_end ? turned(direction(second)) : direction(second);
+      if (!(most_beyond(first, {at, z, d}, frame) <= g.length * g.q)) return std::nullopt;
+      return HalfSpace{at, z, {e.x - d.x, e.y - d.y, e.z - d.z}};
     }
   }
   return std::nullopt;
@@ -81,26 +85,14 @@ std::size_t Envelope<Real>::outside_of_crossing(Index first, Index second, const
   for (const Bound& b : patches_.bounds(second)) {  // beyond its ends there is no cylinder
     if ((b.source == BoundSource::start || b.source == BoundSource::end) && !is_within(b, frame)) return 0;
   }
-  const std::array<Point, 4> corner = frame.box.corners();
-  const std::array<Real, 4> lowest = least_heights(first, frame);
-  const std::array<Real, 4> highest = support(first, frame).at_corners(frame);
   std::size_t count = 0;
+  const Vector d = direction(first), e = direction(second);
+  const auto combine = [&](int s) { return Vector{d.x + s * e.x, d.y + s * e.y, d.z + s * e.z}; };
+  const Real least = least_factor * patches_.radius();
   for (const int sign : {1, -1}) {
-    const auto combine = [&](int s) {
-      return Vector{f.flat * f.gx + s * (g.flat * g.gx), f.flat * f.gy + s * (g.flat * g.gy), f.flat * f.m + s * (g.flat * g.m)};
-    };
     const Vector factor = combine(sign), normal = combine(-sign);
-    Range value{endless, -endless};
-    for (int i = 0; i < 4; ++i) {
-      const Real level = factor.x * (corner[i].x - at.x) + factor.y * (corner[i].y - at.y);
-      for (const Real height : {lowest[i], highest[i]}) {
-        value.low = std::min(value.low, level + factor.z * (height - z));
-        value.high = std::max(value.high, level + factor.z * (height - z));
-      }
-    }
-    const Real least = least_factor * patches_.radius();
-    if (value.low > least) out[count++] = {at, z, normal};
-    if (value.high < -least) out[count++] = {at, z, {-normal.x, -normal.y, -normal.z}};
+    if (most_beyond(first, {at, z, turned(factor)}, frame) < -least) out[count++] = {at, z, normal};
+    if (most_beyond(first, {at, z, factor}, frame) < -least) out[count++] = {at, z, turned(normal)};
   }
   return count;
 }

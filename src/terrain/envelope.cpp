@@ -174,9 +174,8 @@ std::optional<bool> Envelope<Real>::meet_before_wall(Index a, const Bound* of_a,
     const Real over = clamped_height(outer, foot) - rim_height(inner, foot);
     // By no more than the inner one rises so near its wall: where walls cross, the outer one may be far above.
     const Patch& f = patches_[inner];
-    const bool is_round = f.kind != FeatureKind::face;
-    const Real most = (f.kind == FeatureKind::edge ? f.q : Real(1)) * square_root(4 * patches_.radius() * rim_width_);
-    return over >= -noise_ * (1 + norm(h.x, h.y)) && (!is_round || over <= most);
+    const Real most = f.kind == FeatureKind::face ? Real(endless) : (f.kind == FeatureKind::edge ? f.q : Real(1)) * square_root(4 * patches_.radius() * rim_width_);
+    return over >= -noise_ * (1 + norm(h.x, h.y)) && over <= most;
   }
   return std::nullopt;
 }

@@ -202,13 +202,17 @@ class Envelope {
   struct Vector {
     Real x, y, z;
   };
+  /// Of an edge: unit, from its first vertex to its second.
+  Vector direction(Index edge) const {
+    const Patch& f = patches_[edge];
+    return {f.flat * f.gx, f.flat * f.gy, f.flat * f.m};
+  }
   /// Places x with (x - (at, z)) . normal > 0.
   struct HalfSpace {
     Point at;
     Real z;
     Vector normal;
   };
-  std::array<Real, 4> least_heights(Index edge, const BoxFrame& frame) const;
   Real most_beyond(Index edge, const HalfSpace& part, const BoxFrame& frame) const;
   std::optional<HalfSpace> outside_at_vertex(Index first, Index second, const BoxFrame& frame) const;
   std::size_t outside_of_crossing(Index first, Index second, const BoxFrame& frame, HalfSpace out[2]) const;

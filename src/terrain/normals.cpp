@@ -147,7 +147,7 @@ bool Envelope<Real>::hidden_by_axis(Index lower, Index upper, const Box& box) co
   if (part.is_empty()) return true;
   Vector place[3], normal[8];
   const std::size_t places = contacts(lower, part, place), nodes = normals(lower, part, normal);
-  const Vector d{k.gx * k.flat, k.gy * k.flat, k.m * k.flat};
+  const Vector d = direction(upper);
   const auto dot = [](const Vector& v, const Vector& w) { return v.x * w.x + v.y * w.y + v.z * w.z; };
   const Real length = k.length * k.q, slack = noise_ * patches_.radius();
   bool cuts = false;
@@ -204,7 +204,7 @@ bool Envelope<Real>::curve_function(Index own, Index other, std::span<const Vect
     square = (x * x + y * y + z * z) / 4;
   }
   const bool is_edge = g.kind == FeatureKind::edge;
-  const Vector axis = is_edge ? Vector{g.gx * g.flat, g.gy * g.flat, g.m * g.flat} : Vector{0, 0, 0};
+  const Vector axis = is_edge ? direction(other) : Vector{0, 0, 0};
   Real along = 0;
   for (const Vector& n : normals) along = std::max(along, absolute(n.x * axis.x + n.y * axis.y + n.z * axis.z));
   slack = (square + along * along) / 2;

@@ -73,6 +73,11 @@ template <class Real>
 Real size(GradientOf<Real> g) {
   return norm(g.x, g.y);
 }
+/// The multiple of g that is nearest to f.
+template <class Real>
+Real multiple_along(GradientOf<Real> f, GradientOf<Real> g) {
+  return (f.x * g.x + f.y * g.y) / (g.x * g.x + g.y * g.y);
+}
 
 /// An axis-parallel rectangle; of no width or height where it is a stretch of a line.
 template <class Real>

@@ -215,12 +215,11 @@ bool Cells<Real>::is_tangent_sliver(Index patch, const Box& box) const {
   const auto largest = [](Range r) { return std::max(absolute(r.low), absolute(r.high)); };
   // True if some label other than `beside` hides the patch wherever g is below -across times the tolerance.
   const auto hides_beyond = [&](const Bound& b, const Function& g, Real across, Index beside) {
-    const Real square = g.gradient.x * g.gradient.x + g.gradient.y * g.gradient.y;
     across = std::max(across, norm(least(g.range.x), least(g.range.y)));
     for (const Turn& t : turns_) {
       if (t.after == none || t.after == beside) continue;
       const Function f = hidden_by(t.after);
-      const Real k = (f.gradient.x * g.gradient.x + f.gradient.y * g.gradient.y) / square;
+      const Real k = multiple_along(f.gradient, g.gradient);
       if (!(k > 0) || !is_finite(f.value)) continue;  // the middle may be beyond a wall
       const Range factor{k, k};
       const GradientRange d{f.range.x - g.range.x * factor, f.range.y - g.range.y * factor};

@@ -65,9 +65,8 @@ namespace {
 /// True if f is below zero wherever g is, but for a strip beside the curve along which g vanishes, not wider than that.
 template <class Expansion, class Box, class Real>
 bool is_below(const Expansion& f, const Expansion& g, const Box& box, Real width) {
-  const Real square = g.gradient.x * g.gradient.x + g.gradient.y * g.gradient.y;
-  const Real k = (f.gradient.x * g.gradient.x + f.gradient.y * g.gradient.y) / square;
-  return k > 0 && (f - g * k).most(box) <= k * square_root(square) * width;
+  const Real k = multiple_along(f.gradient, g.gradient);
+  return k > 0 && (f - g * k).most(box) <= k * size(g.gradient) * width;
 }
 
 }  // namespace
@@ -110,8 +109,7 @@ bool Cells<Real>::are_apart_by_expansion(const Turn& s, const Turn& t, const Box
   };
   const std::optional<Expansion> f = function(s), g = function(t);
   if (!f || !g || !is_finite(f->curvature.third) || !is_finite(g->curvature.third)) return false;
-  const Real square = g->gradient.x * g->gradient.x + g->gradient.y * g->gradient.y;
-  const Real k = (f->gradient.x * g->gradient.x + f->gradient.y * g->gradient.y) / square;
+  const Real k = multiple_along(f->gradient, g->gradient);
   if (!is_finite(k) || k == 0) return false;
   const Expansion d = *f - *g * k;
   const Real noise = envelope_.noise() * (1 + size(f->gradient));
